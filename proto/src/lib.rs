@@ -1,0 +1,21 @@
+//! The contract `linchpin.v1` between master and worker, and what its messages mean.
+//!
+//! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
+//! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
+//! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
+//! * [`version`]: which protocol versions understand each other.
+
+pub mod contract;
+pub mod polynomial;
+pub mod version;
+
+/// Generated messages, client and server of the package `linchpin.v1`.
+// Generated code carries its documentation in the .proto file.
+#[allow(missing_docs, clippy::all)]
+pub mod v1 {
+    tonic::include_proto!("linchpin.v1");
+
+    /// The compiled description of the contract, for gRPC reflection.
+    pub const FILE_DESCRIPTOR_SET: &[u8] =
+        include_bytes!(concat!(env!("OUT_DIR"), "/linchpin_v1.bin"));
+}
