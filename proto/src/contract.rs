@@ -19,13 +19,20 @@ pub trait Contract: Send + Sync {
     /// Integrates over one macro step.
     fn step(&self, request: &StepRequest) -> Result<StepReply, CallError>;
     /// Integrates once for every perturbed signal, state untouched.
-    fn perturbed_step(&self, request: &PerturbedStepRequest) -> Result<PerturbedStepReply, CallError>;
+    fn perturbed_step(
+        &self,
+        request: &PerturbedStepRequest,
+    ) -> Result<PerturbedStepReply, CallError>;
     /// Outputs at zero length.
     fn evaluate(&self, request: &EvaluateRequest) -> Result<EvaluateReply, CallError>;
     /// Ends an instance.
     fn terminate(&self, request: &TerminateRequest) -> Result<TerminateReply, CallError>;
     /// The fused macro step. `reply` is overwritten; its memory is reused.
-    fn exchange(&self, request: &ExchangeRequest, reply: &mut ExchangeReply) -> Result<(), CallError>;
+    fn exchange(
+        &self,
+        request: &ExchangeRequest,
+        reply: &mut ExchangeReply,
+    ) -> Result<(), CallError>;
 }
 
 /// Why a call has no answer.

@@ -3,10 +3,12 @@
 //! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
 //! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
+//! * [`status`]: failures as gRPC statuses;
 //! * [`version`]: which protocol versions understand each other.
 
 pub mod contract;
 pub mod polynomial;
+pub mod status;
 pub mod version;
 
 /// Generated messages, client and server of the package `linchpin.v1`.

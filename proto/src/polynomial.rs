@@ -167,15 +167,27 @@ mod tests {
     fn every_wrong_set_of_points_has_its_error() {
         let through = Polynomial::through;
         assert_eq!(through(&[], &[]), Err(PolynomialError::Empty));
-        assert_eq!(through(&[0.0], &[]), Err(PolynomialError::Unequal { nodes: 1, values: 0 }));
-        assert_eq!(through(&[0.0; 9], &[0.0; 9]), Err(PolynomialError::TooMany { nodes: 9 }));
+        assert_eq!(
+            through(&[0.0], &[]),
+            Err(PolynomialError::Unequal {
+                nodes: 1,
+                values: 0
+            })
+        );
+        assert_eq!(
+            through(&[0.0; 9], &[0.0; 9]),
+            Err(PolynomialError::TooMany { nodes: 9 })
+        );
         assert_eq!(
             through(&[0.0, 1.0], &[0.0, f64::NAN]),
             Err(PolynomialError::NotFinite { place: 1 })
         );
         assert_eq!(
             through(&[0.0, 1.0, 0.0], &[0.0; 3]),
-            Err(PolynomialError::Coincident { first: 0, second: 2 })
+            Err(PolynomialError::Coincident {
+                first: 0,
+                second: 2
+            })
         );
     }
 

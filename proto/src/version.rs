@@ -40,7 +40,10 @@ mod tests {
 
     #[test]
     fn minor_numbers_do_not_matter() {
-        assert_eq!(negotiate(Some(&ProtocolVersion { major: 1, minor: 7 })), Ok(()));
+        assert_eq!(
+            negotiate(Some(&ProtocolVersion { major: 1, minor: 7 })),
+            Ok(())
+        );
     }
 
     #[test]
@@ -48,6 +51,11 @@ mod tests {
         let error = negotiate(Some(&ProtocolVersion { major: 2, minor: 3 })).unwrap_err();
         let text = error.to_string();
         assert!(text.contains("1.0") && text.contains("2.3"), "{text}");
-        assert!(negotiate(None).unwrap_err().to_string().contains("no version"));
+        assert!(
+            negotiate(None)
+                .unwrap_err()
+                .to_string()
+                .contains("no version")
+        );
     }
 }

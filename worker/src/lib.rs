@@ -1,1 +1,25 @@
-//! Placeholder.
+//! SDK: makes a Linchpin worker of one solver.
+//!
+//! A solver author implements [`Subsystem`] (step, outputs, snapshot, restore) and [`Model`] (describe,
+//! initialize). [`Host`] gives the contract `linchpin.v1` around it: instances, sequence numbers, snapshots, the
+//! fused exchange. [`server`] serves a host over gRPC, on TCP or a Unix socket.
+//!
+//! * [`subsystem`], [`inputs`], [`snapshot`]: what a solver sees;
+//! * [`host`], [`instance`]: what the contract sees;
+//! * [`server`]: the gRPC service, health, reflection, shutdown;
+//! * [`scripted`]: a peer that answers from a script, for tests of masters.
+
+pub mod host;
+pub mod inputs;
+pub mod instance;
+pub mod scripted;
+pub mod server;
+pub mod setup;
+pub mod snapshot;
+pub mod subsystem;
+
+pub use host::Host;
+pub use inputs::Inputs;
+pub use setup::Setup;
+pub use snapshot::Snapshot;
+pub use subsystem::{Interval, Model, StepFailure, Subsystem};

@@ -1,0 +1,116 @@
+//! Failures as gRPC statuses, and back.
+//!
+//! The code carries the severity; what is known beyond the message travels as a `google.rpc.ErrorInfo` of the domain
+//! [`DOMAIN`], which any gRPC library can write.
+
+use std::collections::HashMap;
+
+use tonic::{Code, Status};
+use tonic_types::{ErrorDetails, StatusExt};
+
+use crate::contract::CallError;
+use crate::v1::{Failure, Severity};
+
+/// Domain of the error details.
+pub const DOMAIN: &str = "linchpin";
+
+/// The status that a worker answers with.
+pub fn to_status(error: &CallError) -> Status {
+    match error {
+        CallError::Failed(failure) => from_failure(failure),
+        CallError::Unimplemented { call } => {
+            Status::unimplemented(format!("{call} is not offered"))
+        }
+        CallError::Unreachable { .. } | CallError::Lost { .. } => {
+            Status::unavailable(error.to_string())
+        }
+        CallError::Deadline { .. } => Status::deadline_exceeded(error.to_string()),
+    }
+}
+
+fn from_failure(failure: &Failure) -> Status {
+    let code = match failure.severity() {
+        Severity::Misuse => Code::InvalidArgument,
+        Severity::Recoverable => Code::Aborted,
+        Severity::Fatal => Code::Internal,
+    };
+    let mut metadata = HashMap::new();
+    let texts = [("field", &failure.field), ("variable", &failure.variable)];
+    for (key, text) in texts {
+        metadata.extend(text.iter().map(|text| (key.to_owned(), text.clone())));
+    }
+    for (key, number) in [("t", failure.t), ("step", failure.step)] {
+        metadata.extend(number.map(|number| (key.to_owned(), number.to_string())));
+    }
+    let details = ErrorDetails::with_error_info(failure.severity().as_str_name(), DOMAIN, metadata);
+    Status::with_error_details(code, failure.message.clone(), details)
+}
+
+/// What a status of a worker means to its master. `call` is the call that was answered so.
+pub fn to_error(call: &'static str, status: &Status) -> CallError {
+    let severity = match status.code() {
+        Code::Unimplemented => return CallError::Unimplemented { call },
+        Code::Unavailable | Code::Cancelled => {
+            return CallError::Lost {
+                reason: reason(status),
+            };
+        }
+        Code::InvalidArgument
+        | Code::FailedPrecondition
+        | Code::NotFound
+        | Code::AlreadyExists
+        | Code::OutOfRange => Severity::Misuse,
+        Code::Aborted => Severity::Recoverable,
+        _ => Severity::Fatal,
+    };
+    let info = status
+        .get_details_error_info()
+        .filter(|info| info.domain == DOMAIN);
+    let metadata = info.map(|info| info.metadata).unwrap_or_default();
+    let number = |key| metadata.get(key).and_then(|text| text.parse().ok());
+    CallError::Failed(Failure {
+        severity: severity.into(),
+        message: reason(status),
+        field: metadata.get("field").cloned(),
+        variable: metadata.get("variable").cloned(),
+        t: number("t"),
+        step: number("step"),
+    })
+}
+
+fn reason(status: &Status) -> String {
+    if status.message().is_empty() {
+        return format!("status {:?} without a message", status.code());
+    }
+    status.message().to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_survives_the_wire() {
+        let failure = Failure {
+            field: Some("parameters.m".into()),
+            variable: Some("x".into()),
+            ..Failure::recoverable(0.125, 1e-3, "too stiff")
+        };
+        let error = CallError::Failed(failure);
+        assert_eq!(to_error("Step", &to_status(&error)), error);
+    }
+
+    #[test]
+    fn a_plain_status_of_another_library_is_understood() {
+        let error = to_error("Step", &Status::not_found("no such instance"));
+        let CallError::Failed(failure) = error else {
+            panic!("{error:?}")
+        };
+        assert_eq!(failure.severity(), Severity::Misuse);
+        assert_eq!(failure.field, None);
+        assert_eq!(
+            to_error("Exchange", &Status::unimplemented("")),
+            CallError::Unimplemented { call: "Exchange" }
+        );
+    }
+}

@@ -1,0 +1,179 @@
+//! The gRPC service around a worker: `linchpin.v1.Worker`, health, reflection.
+
+mod address;
+mod service;
+
+use std::future::Future;
+use std::sync::Arc;
+
+use linchpin_proto::contract::Contract;
+use linchpin_proto::v1::{FILE_DESCRIPTOR_SET, worker_server::WorkerServer};
+use tokio::net::{TcpListener, UnixListener};
+use tokio_stream::wrappers::UnixListenerStream;
+use tonic::transport::server::{Router, TcpIncoming};
+
+pub use address::{Address, AddressError};
+use service::Service;
+
+/// Largest message that is accepted, in bytes.
+pub const MESSAGE_LIMIT: usize = 16 << 20;
+
+/// Who may reach a worker that has no encryption.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reach {
+    /// This machine: loopback addresses and Unix sockets.
+    Local,
+    /// Whoever can reach the address. Nothing is encrypted and nobody is asked who they are.
+    Anyone,
+}
+
+/// Why a worker cannot listen.
+#[derive(Debug, thiserror::Error)]
+pub enum ListenError {
+    /// Somebody listens there already.
+    #[error("{address} is in use; choose another address, or port 0 to let the system choose")]
+    InUse {
+        /// The address.
+        address: Address,
+    },
+    /// An address that other machines can reach was not permitted.
+    #[error(
+        "{address} can be reached from other machines, and this worker has neither encryption nor a password; \
+         listen on 127.0.0.1, or permit it with --allow-remote"
+    )]
+    NotLocal {
+        /// The address.
+        address: Address,
+    },
+    /// The system refuses.
+    #[error("cannot listen on {address}: {source}")]
+    System {
+        /// The address.
+        address: Address,
+        /// Its reason.
+        source: std::io::Error,
+    },
+}
+
+/// Serving ended early.
+#[derive(Debug, thiserror::Error)]
+#[error("the server on {address} stopped: {source}")]
+pub struct ServeError {
+    address: Address,
+    source: tonic::transport::Error,
+}
+
+/// A worker that listens.
+pub struct Server {
+    contract: Arc<dyn Contract>,
+    listener: Listener,
+    address: Address,
+}
+
+enum Listener {
+    Tcp(TcpListener),
+    Unix(UnixListener),
+}
+
+impl Server {
+    /// Starts to listen on `address`; calls are answered by `contract` once [`Server::serve`] runs.
+    pub async fn bind(
+        contract: Arc<dyn Contract>,
+        address: Address,
+        reach: Reach,
+    ) -> Result<Self, ListenError> {
+        if reach == Reach::Local && !address.is_local() {
+            return Err(ListenError::NotLocal { address });
+        }
+        let fail = |source: std::io::Error| match source.kind() {
+            std::io::ErrorKind::AddrInUse => ListenError::InUse {
+                address: address.clone(),
+            },
+            _ => ListenError::System {
+                address: address.clone(),
+                source,
+            },
+        };
+        let (listener, bound) = match &address {
+            Address::Tcp(tcp) => {
+                let listener = TcpListener::bind(tcp).await.map_err(fail)?;
+                let bound = Address::Tcp(listener.local_addr().map_err(fail)?);
+                (Listener::Tcp(listener), bound)
+            }
+            Address::Unix(path) => {
+                address::clear_stale(path).map_err(fail)?;
+                let listener = UnixListener::bind(path).map_err(fail)?;
+                (Listener::Unix(listener), address.clone())
+            }
+        };
+        Ok(Self {
+            contract,
+            listener,
+            address: bound,
+        })
+    }
+
+    /// Where it listens, with the port that the system chose.
+    pub fn address(&self) -> &Address {
+        &self.address
+    }
+
+    /// Answers calls until `shutdown` completes; calls under way are finished.
+    pub async fn serve(self, shutdown: impl Future<Output = ()>) -> Result<(), ServeError> {
+        let (health, health_service) = tonic_health::server::health_reporter();
+        health.set_serving::<WorkerServer<Service>>().await;
+        let router = tonic::transport::Server::builder()
+            .add_service(health_service)
+            .add_optional_service(reflection())
+            .add_service(
+                WorkerServer::new(Service::new(self.contract))
+                    .max_decoding_message_size(MESSAGE_LIMIT)
+                    .max_encoding_message_size(MESSAGE_LIMIT),
+            );
+        let served = run(router, self.listener, shutdown).await;
+        if let Address::Unix(path) = &self.address {
+            // A file that is gone already is what we want.
+            let _ = std::fs::remove_file(path);
+        }
+        served.map_err(|source| ServeError {
+            address: self.address,
+            source,
+        })
+    }
+}
+
+async fn run(
+    router: Router,
+    listener: Listener,
+    shutdown: impl Future<Output = ()>,
+) -> Result<(), tonic::transport::Error> {
+    match listener {
+        Listener::Tcp(listener) => {
+            // Without TCP_NODELAY a small answer waits for up to 40 ms.
+            let incoming = TcpIncoming::from(listener).with_nodelay(Some(true));
+            router
+                .serve_with_incoming_shutdown(incoming, shutdown)
+                .await
+        }
+        Listener::Unix(listener) => {
+            let incoming = UnixListenerStream::new(listener);
+            router
+                .serve_with_incoming_shutdown(incoming, shutdown)
+                .await
+        }
+    }
+}
+
+/// Reflection is a convenience: the worker serves without it should the descriptors not be readable.
+fn reflection() -> Option<
+    tonic_reflection::server::v1::ServerReflectionServer<
+        impl tonic_reflection::server::v1::ServerReflection,
+    >,
+> {
+    tonic_reflection::server::Builder::configure()
+        .register_encoded_file_descriptor_set(FILE_DESCRIPTOR_SET)
+        .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+        .build_v1()
+        .inspect_err(|error| tracing::warn!(%error, "no reflection"))
+        .ok()
+}

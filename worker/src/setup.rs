@@ -1,0 +1,239 @@
+//! What an instance is built from.
+
+use std::collections::BTreeMap;
+
+use linchpin_proto::v1::{self, value::Kind};
+
+/// Parameters, solver and start time of a new instance. Defaults of the description are filled in.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    pub(crate) parameters: BTreeMap<String, v1::Value>,
+    pub(crate) solver: String,
+    pub(crate) options: BTreeMap<String, v1::Value>,
+    pub(crate) t_start: f64,
+}
+
+/// Why an instance cannot be built: `field` is the place in the scene's subsystem, e.g. `parameters.m`.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SetupError {
+    /// A required value is missing.
+    #[error("{field} is missing")]
+    Missing {
+        /// Place.
+        field: String,
+    },
+    /// A name that the model does not know.
+    #[error("{field} is unknown to this model; known: {known}")]
+    Unknown {
+        /// Place.
+        field: String,
+        /// Names that are allowed, separated by commas.
+        known: String,
+    },
+    /// Not of the right type.
+    #[error("{field} must be {expected}")]
+    WrongType {
+        /// Place.
+        field: String,
+        /// What is allowed.
+        expected: &'static str,
+    },
+    /// A number out of its range.
+    #[error("{field} = {value} is out of range: {allowed}")]
+    OutOfRange {
+        /// Place.
+        field: String,
+        /// The value given.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+}
+
+impl SetupError {
+    /// Place in the scene's subsystem.
+    pub fn field(&self) -> &str {
+        match self {
+            Self::Missing { field }
+            | Self::Unknown { field, .. }
+            | Self::WrongType { field, .. }
+            | Self::OutOfRange { field, .. } => field,
+        }
+    }
+}
+
+impl Setup {
+    /// Setup of a model that is used without a master, with the defaults of its description.
+    ///
+    /// # Errors
+    /// As for a request that comes over the wire: unknown or missing names.
+    pub fn new(
+        model: &v1::Model,
+        parameters: &[(&str, f64)],
+        solver: Option<v1::Solver>,
+        t_start: f64,
+    ) -> Result<Self, SetupError> {
+        let parameters = parameters
+            .iter()
+            .map(|&(name, number)| {
+                (
+                    name.to_owned(),
+                    v1::Value {
+                        kind: Some(Kind::Number(number)),
+                    },
+                )
+            })
+            .collect();
+        Self::from_request(model, parameters, solver, t_start)
+    }
+
+    pub(crate) fn from_request(
+        model: &v1::Model,
+        mut parameters: BTreeMap<String, v1::Value>,
+        solver: Option<v1::Solver>,
+        t_start: f64,
+    ) -> Result<Self, SetupError> {
+        complete("parameters", &mut parameters, &model.parameters)?;
+        let mut setup = Self {
+            parameters,
+            solver: String::new(),
+            options: BTreeMap::new(),
+            t_start,
+        };
+        let solver = match solver {
+            Some(solver) => solver,
+            None => v1::Solver {
+                kind: model
+                    .solvers
+                    .first()
+                    .map(|kind| kind.name.clone())
+                    .unwrap_or_default(),
+                options: BTreeMap::new(),
+            },
+        };
+        if let Some(kind) = model.solvers.iter().find(|kind| kind.name == solver.kind) {
+            setup.options = solver.options;
+            complete("solver", &mut setup.options, &kind.options)?;
+        } else if !model.solvers.is_empty() || !solver.kind.is_empty() {
+            return Err(SetupError::Unknown {
+                field: format!("solver.kind = \"{}\"", solver.kind),
+                known: names(model.solvers.iter().map(|kind| &kind.name)),
+            });
+        }
+        setup.solver = solver.kind;
+        Ok(setup)
+    }
+
+    /// Time at which the instance starts.
+    pub fn t_start(&self) -> f64 {
+        self.t_start
+    }
+
+    /// Kind of the solver asked for: one of the description.
+    pub fn solver(&self) -> &str {
+        &self.solver
+    }
+
+    /// A parameter that is a number.
+    pub fn parameter(&self, name: &str) -> Result<f64, SetupError> {
+        number("parameters", &self.parameters, name)
+    }
+
+    /// A parameter that must be positive.
+    pub fn positive_parameter(&self, name: &str) -> Result<f64, SetupError> {
+        self.parameter_in(name, "it must be greater than 0", |value| value > 0.0)
+    }
+
+    /// A parameter that must not be negative.
+    pub fn non_negative_parameter(&self, name: &str) -> Result<f64, SetupError> {
+        self.parameter_in(name, "it must be 0 or greater", |value| value >= 0.0)
+    }
+
+    /// A parameter with a range of its own, told to the user by `allowed`.
+    pub fn parameter_in(
+        &self,
+        name: &str,
+        allowed: &'static str,
+        is_allowed: impl Fn(f64) -> bool,
+    ) -> Result<f64, SetupError> {
+        in_range("parameters", &self.parameters, name, allowed, is_allowed)
+    }
+
+    /// An option of the solver that must be positive.
+    pub fn positive_option(&self, name: &str) -> Result<f64, SetupError> {
+        in_range(
+            "solver",
+            &self.options,
+            name,
+            "it must be greater than 0",
+            |value| value > 0.0,
+        )
+    }
+}
+
+fn complete(
+    table: &str,
+    values: &mut BTreeMap<String, v1::Value>,
+    known: &[v1::Parameter],
+) -> Result<(), SetupError> {
+    for name in values.keys() {
+        if !known.iter().any(|parameter| &parameter.name == name) {
+            return Err(SetupError::Unknown {
+                field: format!("{table}.{name}"),
+                known: names(known.iter().map(|parameter| &parameter.name)),
+            });
+        }
+    }
+    for parameter in known {
+        if let (Some(default), false) = (parameter.default, values.contains_key(&parameter.name)) {
+            let value = v1::Value {
+                kind: Some(Kind::Number(default)),
+            };
+            values.insert(parameter.name.clone(), value);
+        }
+    }
+    Ok(())
+}
+
+fn number(
+    table: &str,
+    values: &BTreeMap<String, v1::Value>,
+    name: &str,
+) -> Result<f64, SetupError> {
+    let field = || format!("{table}.{name}");
+    match values.get(name).map(|value| &value.kind) {
+        Some(Some(Kind::Number(value))) if value.is_finite() => Ok(*value),
+        Some(Some(Kind::Number(value))) => Err(SetupError::OutOfRange {
+            field: field(),
+            value: *value,
+            allowed: "it must be a finite number",
+        }),
+        Some(_) => Err(SetupError::WrongType {
+            field: field(),
+            expected: "a number",
+        }),
+        None => Err(SetupError::Missing { field: field() }),
+    }
+}
+
+fn in_range(
+    table: &str,
+    values: &BTreeMap<String, v1::Value>,
+    name: &str,
+    allowed: &'static str,
+    is_allowed: impl Fn(f64) -> bool,
+) -> Result<f64, SetupError> {
+    let value = number(table, values, name)?;
+    if is_allowed(value) {
+        return Ok(value);
+    }
+    Err(SetupError::OutOfRange {
+        field: format!("{table}.{name}"),
+        value,
+        allowed,
+    })
+}
+
+fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
+    names.map(String::as_str).collect::<Vec<_>>().join(", ")
+}

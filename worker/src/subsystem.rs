@@ -1,0 +1,95 @@
+//! What a solver author implements.
+
+use linchpin_proto::v1;
+
+use crate::{Inputs, Setup, Snapshot, setup::SetupError};
+
+/// One macro step of a subsystem: from `start` (s) over `length` (s).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// Time at which the step starts.
+    pub start: f64,
+    /// Its length, positive.
+    pub length: f64,
+}
+
+impl Interval {
+    /// Time at which the step ends.
+    pub fn end(&self) -> f64 {
+        self.start + self.length
+    }
+}
+
+/// Why a subsystem could not step, evaluate or go back.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StepFailure {
+    /// The solver failed at time `t`; a smaller macro step may help.
+    #[error("{message} at t = {t} s")]
+    Recoverable {
+        /// Where the solver stopped.
+        t: f64,
+        /// What went wrong.
+        message: String,
+    },
+    /// The solver cannot go on.
+    #[error("{message}")]
+    Fatal {
+        /// What went wrong.
+        message: String,
+    },
+}
+
+/// A solver run: one subsystem with its state.
+///
+/// All inputs are given for every call, in the order of the model's description; an input that the scene does not
+/// drive is the constant of its default.
+pub trait Subsystem: Send {
+    /// Integrates over `interval` under `inputs` (polynomials of the time since `interval.start`).
+    fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure>;
+
+    /// Writes the outputs numbered `wanted` (order of the description) at time `t` to `values`, under the input
+    /// values `inputs` at that time: what depends directly on an input (an acceleration) uses these.
+    /// Only what is wanted may be computed.
+    fn outputs(
+        &mut self,
+        t: f64,
+        inputs: &[f64],
+        wanted: &[usize],
+        values: &mut [f64],
+    ) -> Result<(), StepFailure>;
+
+    /// Writes the whole state to `into`, which is empty.
+    fn snapshot(&self, into: &mut Snapshot);
+
+    /// Goes back, bit by bit, to the state that [`Subsystem::snapshot`] wrote.
+    fn restore(&mut self, from: &Snapshot) -> Result<(), StepFailure>;
+
+    /// Steps once more from where the last [`Subsystem::step`] started, over the same interval, with one input a
+    /// little different; the state has been restored. The difference of the two results becomes a column of the
+    /// coupling Jacobian, so a solver with step-size control should repeat the internal steps of that last call
+    /// here (internal numerical differentiation). Solvers without control need nothing: the default steps.
+    fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+        self.step(interval, inputs)
+    }
+
+    /// Internal solver steps since the start, for the statistics.
+    fn internal_steps(&self) -> u64 {
+        0
+    }
+
+    /// Error tolerance of the solver in units of its outputs; `None` if it is exact up to rounding.
+    fn tolerance(&self) -> Option<f64> {
+        None
+    }
+}
+
+/// A kind of subsystem that can be instantiated.
+pub trait Model: Send + Sync {
+    /// Name, inputs, outputs, parameters, markers, solvers, states.
+    /// The SDK fills in which capabilities it provides itself.
+    fn describe(&self) -> v1::Model;
+
+    /// Builds the subsystem in its initial state. Parameters that the description does not list, or that it needs
+    /// and `setup` does not have, are refused before this is called.
+    fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError>;
+}
