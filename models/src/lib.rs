@@ -1,1 +1,18 @@
-//! Placeholder.
+//! Built-in subsystem solvers behind [`linchpin_worker::Model`].
+//!
+//! * [`oscillator`]: one mass on a spring and a damper;
+//! * [`integrators`]: time integration that several models share;
+//! * [`reference`]: closed forms that coupled runs are compared with.
+
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
+pub mod integrators;
+pub mod oscillator;
+pub mod reference;
+
+use linchpin_worker::Model;
+
+/// All built-in models.
+pub fn models() -> Vec<Box<dyn Model>> {
+    vec![Box::new(oscillator::Oscillator)]
+}

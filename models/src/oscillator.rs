@@ -1,0 +1,65 @@
+//! The model `oscillator`: one mass on a spring and a damper,
+//! `m v' = -c x - d v + f + k_p (x_p - x) + d_p (v_p - v)`, `x' = v`.
+//!
+//! `f` is an applied force; `x_p`, `v_p` are the motion of a partner behind a spring `k_p` and a damper `d_p`, for
+//! force/displacement coupling.
+
+mod adaptive;
+mod description;
+mod equation;
+mod exact;
+mod fixed;
+mod parameters;
+mod propagator;
+mod run;
+
+use linchpin_proto::v1;
+use linchpin_worker::setup::SetupError;
+use linchpin_worker::{Model, Setup, Subsystem};
+
+use crate::integrators::radau::Tolerances;
+use adaptive::Adaptive;
+use equation::Equation;
+use exact::Exact;
+use fixed::Fixed;
+use run::Run;
+
+pub use parameters::{OscillatorParameters, PartnerSpring};
+
+/// One mass on a spring and a damper (S1 Sect. 2).
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Oscillator;
+
+impl Model for Oscillator {
+    fn describe(&self) -> v1::Model {
+        description::model()
+    }
+
+    fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
+        let own = OscillatorParameters::from_setup(setup)?;
+        let equation = Equation::new(own, PartnerSpring::from_setup(setup)?);
+        let start = [own.x0, own.v0];
+        match setup.solver() {
+            description::EXACT => Ok(Box::new(Run::new(equation, start, Exact::default()))),
+            description::RADAU5 => {
+                let tolerances = Tolerances {
+                    relative: setup.positive_option("rtol")?,
+                    absolute: setup.positive_option("atol")?,
+                };
+                Ok(Box::new(Run::new(
+                    equation,
+                    start,
+                    Adaptive::new(tolerances),
+                )))
+            }
+            description::RK4 => {
+                let fixed = Fixed::new(setup.positive_option("step")?);
+                Ok(Box::new(Run::new(equation, start, fixed)))
+            }
+            other => Err(SetupError::Unknown {
+                field: format!("solver.kind = \"{other}\""),
+                known: description::SOLVERS.join(", "),
+            }),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Solver `exact`: the solution in closed form for polynomial inputs.
+
+use linchpin_proto::polynomial::MAX_NODES;
+use linchpin_worker::{Inputs, Interval, StepFailure};
+
+use super::equation::Equation;
+use super::propagator::Propagator;
+use super::run::{Solver, State};
+
+/// The matrix exponential of the equation of motion, kept for the two step lengths used last: a run may end with
+/// a shorter step, and a step that is divided gives two.
+#[derive(Debug, Default)]
+pub struct Exact {
+    kept: [Option<Response>; 2],
+    newest: usize,
+    steps: u64,
+}
+
+/// Increments of `(x, v)` over a step of one length.
+#[derive(Debug)]
+struct Response {
+    length: f64,
+    transition: [[f64; 2]; 2],
+    input: [[f64; 2]; MAX_NODES],
+}
+
+impl Response {
+    fn new(equation: &Equation, length: f64) -> Option<Self> {
+        let kappa = length * length * equation.stiffness / equation.mass;
+        let delta = length * equation.damping / equation.mass;
+        let unit = Propagator::new(kappa, delta)?;
+        let [[xx, xv], [vx, vv]] = unit.transition;
+        Some(Self {
+            length,
+            transition: [[xx, xv * length], [vx / length, vv]],
+            input: unit.input.map(|[x, v]| {
+                let scaled = length / equation.mass;
+                [x * scaled * length, v * scaled]
+            }),
+        })
+    }
+
+    fn advance(&self, forces: &[f64; MAX_NODES], state: &mut State) {
+        let [x, v] = *state;
+        let increment = |by_state: [f64; 2], row: usize| {
+            let by_input: f64 = forces
+                .iter()
+                .zip(&self.input)
+                .map(|(force, by)| force * by[row])
+                .sum();
+            by_state[0] * x + by_state[1] * v + by_input
+        };
+        *state = [
+            x + increment(self.transition[0], 0),
+            v + increment(self.transition[1], 1),
+        ];
+    }
+}
+
+impl Exact {
+    fn response(&mut self, equation: &Equation, length: f64) -> Option<&Response> {
+        let is_kept = |kept: &Option<Response>| {
+            kept.as_ref()
+                .is_some_and(|response| response.length.to_bits() == length.to_bits())
+        };
+        match self.kept.iter().position(is_kept) {
+            Some(place) => self.newest = place,
+            None => {
+                self.newest = 1 - self.newest;
+                self.kept[self.newest] = Response::new(equation, length);
+            }
+        }
+        self.kept[self.newest].as_ref()
+    }
+}
+
+impl Solver for Exact {
+    fn step(
+        &mut self,
+        equation: &Equation,
+        interval: Interval,
+        inputs: &Inputs,
+        state: &mut State,
+    ) -> Result<(), StepFailure> {
+        let response = self.response(equation, interval.length).ok_or_else(|| StepFailure::Recoverable {
+            t: interval.start,
+            message: format!(
+                "the matrix exponential overflows with a step of {} s, stiffness {} N/m, damping {} N s/m, mass {} kg",
+                interval.length, equation.stiffness, equation.damping, equation.mass
+            ),
+        })?;
+        response.advance(&equation.force_powers(inputs, interval.length), state);
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn internal_steps(&self) -> u64 {
+        self.steps
+    }
+}

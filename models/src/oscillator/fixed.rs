@@ -1,0 +1,63 @@
+//! Solver `rk4`: fixed steps.
+
+use linchpin_worker::{Inputs, Interval, StepFailure};
+
+use super::equation::{Driven, Equation};
+use super::run::{Solver, State};
+use crate::integrators::Rk4;
+
+/// More parts than this in one macro step are taken for a mistake in `step`.
+const MOST_PARTS: f64 = 1e7;
+
+/// Parts of a macro step, by which its length may miss a multiple of `step`, that are taken for rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Every macro step is cut into equal parts not longer than `step`. Repeated steps are the same to the bit, so
+/// perturbed steps need nothing.
+#[derive(Debug)]
+pub struct Fixed {
+    step: f64,
+    rk4: Rk4,
+    steps: u64,
+}
+
+impl Fixed {
+    pub fn new(step: f64) -> Self {
+        Self {
+            step,
+            rk4: Rk4::new(2),
+            steps: 0,
+        }
+    }
+}
+
+impl Solver for Fixed {
+    fn step(
+        &mut self,
+        equation: &Equation,
+        interval: Interval,
+        inputs: &Inputs,
+        state: &mut State,
+    ) -> Result<(), StepFailure> {
+        let parts = (interval.length / self.step - ROUNDING).ceil().max(1.0);
+        if parts > MOST_PARTS {
+            return Err(StepFailure::Recoverable {
+                t: interval.start,
+                message: format!(
+                    "a macro step of {} s has more than {MOST_PARTS} internal steps of {} s; \
+                     raise solver.step or shorten the macro step",
+                    interval.length, self.step
+                ),
+            });
+        }
+        let parts = parts as u64;
+        self.rk4
+            .integrate(&Driven { equation, inputs }, interval.length, parts, state);
+        self.steps += parts;
+        Ok(())
+    }
+
+    fn internal_steps(&self) -> u64 {
+        self.steps
+    }
+}
