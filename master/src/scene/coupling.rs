@@ -1,0 +1,195 @@
+//! Reads `[coupling]`: method, parameters, degree and macro step.
+
+use super::error_kind::{Names, SceneErrorKind};
+use super::formula::{Formula, Unit};
+use super::index::{PairRules, resolve_pair};
+use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
+use super::resolved::{Coupling, Increment, Method};
+use super::written::Value;
+
+/// The key whose override changes which other keys there are.
+pub(super) const METHOD_KEY: &str = "coupling.method";
+
+/// Highest degree of the coupling polynomials.
+const HIGHEST_DEGREE: usize = 3;
+
+/// Keys that every method has.
+const COMMON: [&str; 4] = ["method", "degree", "macro_step", "increment"];
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Baumgarte,
+    Weighted,
+    Explicit,
+    Jacobi,
+    GaussSeidel,
+}
+
+const METHODS: [(&str, Kind); 5] = [
+    ("baumgarte", Kind::Baumgarte),
+    ("weighted", Kind::Weighted),
+    ("explicit", Kind::Explicit),
+    ("jacobi", Kind::Jacobi),
+    ("gauss-seidel", Kind::GaussSeidel),
+];
+
+impl Kind {
+    fn parameters(self) -> &'static [&'static str] {
+        match self {
+            Self::Baumgarte => &["index", "beta", "gamma"],
+            Self::Weighted => &["index", "a", "b"],
+            Self::Explicit => &["mu"],
+            Self::Jacobi | Self::GaussSeidel => &["stiffness", "damping"],
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Baumgarte => "baumgarte",
+            Self::Weighted => "weighted",
+            Self::Explicit => "explicit",
+            Self::Jacobi => "jacobi",
+            Self::GaussSeidel => "gauss-seidel",
+        }
+    }
+
+    fn highest_degree(self) -> usize {
+        match self {
+            Self::Explicit => 0,
+            _ => HIGHEST_DEGREE,
+        }
+    }
+
+    fn default_degree(self) -> usize {
+        self.highest_degree().min(1)
+    }
+}
+
+/// True for a parameter that some methods have, but not the one of this name.
+pub(super) fn belongs_to_others(key: &str, method: &str) -> bool {
+    let chosen = METHODS.iter().find(|(name, _)| *name == method);
+    chosen.is_some_and(|(_, kind)| !kind.parameters().contains(&key)) && !owners(key).is_empty()
+}
+
+/// The methods that have a parameter.
+fn owners(key: &str) -> Vec<&'static str> {
+    METHODS
+        .iter()
+        .filter(|(_, kind)| kind.parameters().contains(&key))
+        .map(|(name, _)| *name)
+        .collect()
+}
+
+pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Coupling> {
+    let kind = section
+        .require("method", "method = \"baumgarte\"", problems)
+        .and_then(|field| field.choice(&METHODS, problems));
+    check_keys(section, kind, problems);
+    let macro_step = section
+        .require("macro_step", "macro_step = 1e-3", problems)
+        .and_then(|field| field.number(&POSITIVE, problems));
+    let increment = section
+        .get("increment")
+        .map_or(Some(Increment::Automatic), |field| {
+            read_increment(&field, problems)
+        });
+    let highest = kind.map_or(HIGHEST_DEGREE, Kind::highest_degree);
+    let degree = match (section.get("degree"), kind) {
+        (Some(field), _) => field.whole(0, highest, problems),
+        (None, kind) => kind.map(Kind::default_degree),
+    };
+    let method = kind.and_then(|kind| read_method(kind, section, macro_step, problems));
+    Some(Coupling {
+        method: method?,
+        degree: degree?,
+        macro_step: macro_step?,
+        increment: increment?,
+    })
+}
+
+fn check_keys(section: &Section<'_>, kind: Option<Kind>, problems: &mut Problems<'_>) {
+    let mut allowed = COMMON.to_vec();
+    match kind {
+        Some(kind) => allowed.extend(kind.parameters()),
+        None => allowed.extend(METHODS.iter().flat_map(|(_, kind)| kind.parameters())),
+    }
+    let Some(kind) = kind else {
+        return section.allow_only(&allowed, problems);
+    };
+    let mut with_others = allowed.clone();
+    for (key, entry) in section.table {
+        if belongs_to_others(key, kind.name()) {
+            with_others.push(key);
+            let report = SceneErrorKind::KeyOfOtherMethod {
+                key: key.clone(),
+                method: kind.name(),
+                owners: Names::from(owners(key).as_slice()),
+            };
+            problems.report(&entry.key_spot, report);
+        }
+    }
+    section.allow_only(&with_others, problems);
+}
+
+fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Increment> {
+    match &field.node.value {
+        Value::Text(_) => field.choice(&[("automatic", Increment::Automatic)], problems),
+        _ => field.number(&POSITIVE, problems).map(Increment::Relative),
+    }
+}
+
+fn read_method(
+    kind: Kind,
+    section: &Section<'_>,
+    macro_step: Option<f64>,
+    problems: &mut Problems<'_>,
+) -> Option<Method> {
+    match kind {
+        Kind::Baumgarte => {
+            let rules = PairRules {
+                method: kind.name(),
+                first: ("beta", Formula::multiple(2.0, Unit::Time), "\"2H\""),
+                second: ("gamma", Formula::multiple(1.0, Unit::TimeSquared)),
+                units: (Unit::Time, Unit::TimeSquared),
+            };
+            let (index, beta, gamma) = resolve_pair(&rules, section, macro_step, problems)?;
+            Some(Method::Baumgarte { index, beta, gamma })
+        }
+        Kind::Weighted => {
+            let rules = PairRules {
+                method: kind.name(),
+                first: ("a", Formula::multiple(2.0, Unit::Plain), "2"),
+                second: ("b", Formula::multiple(2.6, Unit::Plain)),
+                units: (Unit::Plain, Unit::Plain),
+            };
+            let (index, a, b) = resolve_pair(&rules, section, macro_step, problems)?;
+            Some(Method::Weighted { index, a, b })
+        }
+        Kind::Explicit => {
+            let field = section.require("mu", "mu = \"10H\"", problems)?;
+            let formula = Formula::read_positive(&field, Unit::Time, problems)?;
+            let mu = formula
+                .at(macro_step?, &field.key)
+                .map_err(|kind| field.report(kind, problems));
+            Some(Method::Explicit { mu: mu.ok()? })
+        }
+        Kind::Jacobi => {
+            let (stiffness, damping) = read_spring(section, problems)?;
+            Some(Method::Jacobi { stiffness, damping })
+        }
+        Kind::GaussSeidel => {
+            let (stiffness, damping) = read_spring(section, problems)?;
+            Some(Method::GaussSeidel { stiffness, damping })
+        }
+    }
+}
+
+fn read_spring(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<(f64, f64)> {
+    let stiffness = section
+        .require("stiffness", "stiffness = 1e6", problems)
+        .and_then(|field| field.number(&POSITIVE, problems));
+    let damping = section
+        .get("damping")
+        .map_or(Some(0.0), |field| field.number(&NOT_NEGATIVE, problems));
+    Some((stiffness?, damping?))
+}

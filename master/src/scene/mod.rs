@@ -1,0 +1,131 @@
+//! The scene: what is coupled, how, and for how long.
+//!
+//! [`load`] reads a TOML file into a tree of values with their places (the file as written) and resolves it into a
+//! [`Scene`]: defaults filled in, names followed, every value checked. All mistakes are reported together, each with its
+//! place, the value found, what is allowed, and the nearest name. [`warnings`] tells which sound scenes are known to be
+//! unstable.
+
+mod coupling;
+mod error;
+mod error_kind;
+mod formula;
+mod index;
+mod joint;
+mod names;
+mod nearest;
+mod overrides;
+mod place;
+mod reader;
+mod resolve;
+mod resolved;
+mod stability_rules;
+mod subsystem;
+mod sweeps;
+#[cfg(test)]
+mod tests;
+mod variants;
+mod written;
+
+use std::io::ErrorKind;
+use std::path::Path;
+use std::sync::Arc;
+
+pub use error::{SceneError, SceneErrors};
+pub use error_kind::{Names, SceneErrorKind};
+pub use overrides::{NotAnOverride, Override};
+pub use place::Place;
+pub use resolved::{
+    Axis, Calls, Case, ConvergeSettings, Coupling, Increment, Index, Joint, JointKind, Method,
+    Output, Reference, RunSettings, Served, Side, StabilitySettings, Subsystem,
+};
+pub use stability_rules::{Warning, warnings};
+
+use written::Written;
+
+/// A scene as resolved. Times in s, all units SI; everything is finite and within its range.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its name.
+    pub name: String,
+    /// Start of the simulated time; default 0.
+    pub t_start: f64,
+    /// End of the simulated time, after the start.
+    pub t_end: f64,
+    /// How the subsystems are coupled.
+    pub coupling: Coupling,
+    /// What is coupled, at least one.
+    pub subsystems: Vec<Subsystem>,
+    /// The constraints between the subsystems.
+    pub joints: Vec<Joint>,
+    /// What is recorded.
+    pub output: Output,
+    /// How the run treats its workers.
+    pub run: RunSettings,
+    /// Variants that one command runs side by side.
+    pub cases: Vec<Case>,
+    /// The convergence study.
+    pub converge: Option<ConvergeSettings>,
+    /// The stability map.
+    pub stability: Option<StabilitySettings>,
+    written: Arc<Written>,
+}
+
+/// Reads a scene file and puts overrides into it.
+///
+/// # Errors
+/// All mistakes in the file, in its cases and studies, and in the overrides.
+pub fn load(path: &Path, overrides: &[Override]) -> Result<Scene, SceneErrors> {
+    let bytes = std::fs::read(path).map_err(|source| {
+        let path = path.to_owned();
+        let kind = match source.kind() {
+            ErrorKind::NotFound => SceneErrorKind::NotFound { path },
+            _ => SceneErrorKind::Unreadable { path, source },
+        };
+        SceneError::new(None, kind)
+    })?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        let kind = SceneErrorKind::NotUtf8 {
+            path: path.to_owned(),
+            offset: error.utf8_error().valid_up_to(),
+        };
+        SceneError::new(None, kind)
+    })?;
+    parse(&text, &path.display().to_string(), overrides)
+}
+
+/// Like [`load`], for the text of a scene; `origin` names it in messages.
+///
+/// # Errors
+/// All mistakes in the text, in its cases and studies, and in the overrides.
+pub fn parse(text: &str, origin: &str, overrides: &[Override]) -> Result<Scene, SceneErrors> {
+    let written = Written::parse(text, origin).map_err(|mistakes| {
+        let error =
+            |(place, reason)| SceneError::new(Some(place), SceneErrorKind::NotToml { reason });
+        SceneErrors::new(mistakes.into_iter().map(error).collect())
+    })?;
+    variants::resolve_checked(written, overrides)
+}
+
+impl Scene {
+    /// Where a key is set, such as `subsystem.mass1.parameters.m`, or the nearest key around it; absent if the scene
+    /// says nothing about it.
+    pub fn place(&self, key: &str) -> Option<Place> {
+        let node = self.written.nearest_node(key)?;
+        self.written.place(&node.spot)
+    }
+
+    /// A mistake that only a worker can find, with the place of its key.
+    pub fn error(
+        &self,
+        key: &str,
+        message: impl Into<String>,
+        help: Option<String>,
+    ) -> SceneErrors {
+        let kind = SceneErrorKind::RefusedByWorker {
+            key: key.to_owned(),
+            message: message.into(),
+            help,
+        };
+        SceneErrors::from(SceneError::new(self.place(key), kind))
+    }
+}

@@ -1,0 +1,84 @@
+//! The names that a scene gives to its subsystems, joints and cases.
+
+use std::collections::BTreeMap;
+
+use super::error_kind::SceneErrorKind;
+use super::reader::{Field, Problems, Section};
+
+/// Names in use, and who has them.
+pub(super) struct Registry<'w> {
+    owner: &'static str,
+    positions: BTreeMap<&'w str, usize>,
+    fields: Vec<Option<Field<'w>>>,
+}
+
+impl<'w> Registry<'w> {
+    /// Collects the names of a list of tables and reports those that are given twice or taken by `others`.
+    pub(super) fn collect(
+        owner: &'static str,
+        sections: &[Section<'w>],
+        others: Option<&Registry<'w>>,
+        problems: &mut Problems<'_>,
+    ) -> Self {
+        let mut registry = Self {
+            owner,
+            positions: BTreeMap::new(),
+            fields: Vec::new(),
+        };
+        for (position, section) in sections.iter().enumerate() {
+            let field = section.get("name");
+            if let Some((field, name)) = field.as_ref().and_then(|f| Some((f, f.peek_text()?))) {
+                let taken = registry.owner_of(name).or_else(|| others?.owner_of(name));
+                match taken {
+                    Some((taken_by, first)) => {
+                        report_duplicate(field, name, taken_by, first, problems);
+                    }
+                    None => {
+                        registry.positions.insert(name, position);
+                    }
+                }
+            }
+            registry.fields.push(field);
+        }
+        registry
+    }
+
+    fn owner_of(&self, name: &str) -> Option<(&'static str, &Field<'w>)> {
+        let position = self.position(name)?;
+        Some((self.owner, self.fields.get(position)?.as_ref()?))
+    }
+
+    pub(super) fn position(&self, name: &str) -> Option<usize> {
+        self.positions.get(name).copied()
+    }
+
+    /// The name at a position that [`Registry::position`] gave.
+    pub(super) fn name(&self, position: usize) -> String {
+        self.positions
+            .iter()
+            .find(|(_, taken)| **taken == position)
+            .map(|(name, _)| (*name).to_owned())
+            .unwrap_or_default()
+    }
+
+    pub(super) fn names(&self) -> impl Iterator<Item = &'w str> {
+        self.positions.keys().copied()
+    }
+}
+
+fn report_duplicate(
+    field: &Field<'_>,
+    name: &str,
+    taken_by: &'static str,
+    first: &Field<'_>,
+    problems: &mut Problems<'_>,
+) {
+    let line = problems.written.place(&first.node.spot);
+    let kind = SceneErrorKind::DuplicateName {
+        key: field.key.clone(),
+        name: name.to_owned(),
+        taken_by,
+        line: line.filter(|p| !p.is_override()).map(|p| p.line),
+    };
+    field.report(kind, problems);
+}

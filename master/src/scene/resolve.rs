@@ -1,0 +1,294 @@
+//! Turns the scene as written into the scene as resolved.
+
+use std::sync::Arc;
+
+use super::Scene;
+use super::coupling;
+use super::error::{SceneError, SceneErrors};
+use super::error_kind::SceneErrorKind;
+use super::joint::{self, find_subsystem};
+use super::names::Registry;
+use super::reader::{FINITE, Field, Problems, Range, Section};
+use super::resolved::{Output, RunSettings};
+use super::subsystem;
+use super::sweeps;
+use super::written::{Value, Written};
+
+const SECTIONS: [&str; 9] = [
+    "scene",
+    "coupling",
+    "subsystem",
+    "joint",
+    "output",
+    "run",
+    "case",
+    "converge",
+    "stability",
+];
+const DEFAULT_DEADLINE: f64 = 30.0;
+const DEFAULT_START_TIMEOUT: f64 = 10.0;
+const VARIABLES: &str = "a list of outputs such as [\"mass1.v\"]";
+/// Longer than any sensible wait, and short enough for every clock.
+const TIME_LIMIT: Range = Range {
+    words: "greater than 0 s and at most 1e6 s",
+    contains: |value| value > 0.0 && value <= 1e6,
+};
+
+/// The scene, or everything that is wrong with it, together with the mistakes that were found before.
+pub(super) fn resolve(written: Written, earlier: Vec<SceneError>) -> Result<Scene, SceneErrors> {
+    let written = Arc::new(written);
+    let mut problems = Problems::new(&written);
+    for error in earlier {
+        problems.keep(error);
+    }
+    let scene = read(&written, &mut problems);
+    problems.finish(scene)
+}
+
+fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
+    let Value::Table(table) = &written.root.value else {
+        return None;
+    };
+    let root = Section::root(written, table);
+    root.allow_only(&SECTIONS, problems);
+    let head = root
+        .require("scene", "[scene] with name and t_end", problems)
+        .and_then(|field| field.section(problems))
+        .and_then(|section| read_head(&section, problems));
+    let duration = head.as_ref().map(|head| head.t_end - head.t_start);
+    let coupling = root
+        .require(
+            "coupling",
+            "[coupling] with method and macro_step",
+            problems,
+        )
+        .and_then(|field| field.section(problems))
+        .and_then(|section| {
+            let coupling = coupling::read(&section, problems);
+            check_step_of_coupling(&section, duration, problems)?;
+            coupling
+        });
+    let subsystem_tables = sections(&root, "subsystem", problems);
+    let joint_tables = sections(&root, "joint", problems);
+    let subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
+    Registry::collect("joint", &joint_tables, Some(&subsystem_names), problems);
+    if !table.contains_key("subsystem") {
+        problems.report(root.spot, SceneErrorKind::NoSubsystem);
+    }
+    let subsystems = collect(&subsystem_tables, |table| subsystem::read(table, problems));
+    let joints = collect(&joint_tables, |table| {
+        joint::read(table, &subsystem_names, problems)
+    });
+    let output = read_output(&root, &subsystem_names, problems);
+    let run = read_run(&root, problems);
+    let case_tables = sections(&root, "case", problems);
+    Registry::collect("case", &case_tables, None, problems);
+    let cases = collect(&case_tables, |table| sweeps::read_case(table, problems));
+    let converge = optional(root.get("converge"), problems, |section, problems| {
+        sweeps::read_converge(section, duration, problems)
+    });
+    let stability = optional(root.get("stability"), problems, sweeps::read_stability);
+    let head = head?;
+    Some(Scene {
+        name: head.name,
+        t_start: head.t_start,
+        t_end: head.t_end,
+        coupling: coupling?,
+        subsystems: subsystems?,
+        joints: joints?,
+        output: output?,
+        run: run?,
+        cases: cases?,
+        converge: converge?,
+        stability: stability?,
+        written: Arc::clone(written),
+    })
+}
+
+/// All or nothing, but every element is read.
+fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
+    let read: Vec<Option<T>> = items.iter().map(read).collect();
+    read.into_iter().collect()
+}
+
+/// `Some(None)` if the table is absent.
+fn optional<T>(
+    field: Option<Field<'_>>,
+    problems: &mut Problems<'_>,
+    read: impl FnOnce(&Section<'_>, &mut Problems<'_>) -> Option<T>,
+) -> Option<Option<T>> {
+    match field {
+        Some(field) => read(&field.section(problems)?, problems).map(Some),
+        None => Some(None),
+    }
+}
+
+struct Head {
+    name: String,
+    t_start: f64,
+    t_end: f64,
+}
+
+fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head> {
+    section.allow_only(&["name", "t_start", "t_end"], problems);
+    let name = section
+        .require("name", "name = \"oscillator\"", problems)
+        .and_then(|field| field.name(problems));
+    let t_start = section
+        .get("t_start")
+        .map_or(Some(0.0), |field| field.number(&FINITE, problems));
+    let end_field = section.require("t_end", "t_end = 1.0", problems);
+    let t_end = end_field
+        .as_ref()
+        .and_then(|field| field.number(&FINITE, problems));
+    let (t_start, t_end) = (t_start?, t_end?);
+    if t_end <= t_start || !(t_end - t_start).is_finite() {
+        end_field?.report(SceneErrorKind::EndBeforeStart { t_start, t_end }, problems);
+        return None;
+    }
+    Some(Head {
+        name: name?.to_owned(),
+        t_start,
+        t_end,
+    })
+}
+
+/// Checked apart from the method, so that it shows beside other mistakes of the coupling.
+fn check_step_of_coupling(
+    section: &Section<'_>,
+    duration: Option<f64>,
+    problems: &mut Problems<'_>,
+) -> Option<()> {
+    let Some(field) = section.get("macro_step") else {
+        return Some(());
+    };
+    let macro_step = match field.node.value {
+        Value::Float(value) => value,
+        Value::Integer(value) => value as f64,
+        _ => return Some(()),
+    };
+    sweeps::check_macro_step(macro_step, &field, duration, problems).map(drop)
+}
+
+/// The tables of a list, each under its name.
+fn sections<'w>(
+    root: &Section<'w>,
+    key: &'static str,
+    problems: &mut Problems<'_>,
+) -> Vec<Section<'w>> {
+    let allowed = match key {
+        "subsystem" => "tables headed [[subsystem]]",
+        "joint" => "tables headed [[joint]]",
+        _ => "tables headed [[case]]",
+    };
+    let items = root
+        .get(key)
+        .and_then(|field| field.items(allowed, problems))
+        .unwrap_or_default();
+    let mut sections = Vec::new();
+    for mut item in items {
+        if let Some(name) = item.node.name() {
+            item.key = format!("{key}.{name}");
+        }
+        sections.extend(item.section(problems));
+    }
+    sections
+}
+
+fn read_output(
+    root: &Section<'_>,
+    subsystems: &Registry<'_>,
+    problems: &mut Problems<'_>,
+) -> Option<Output> {
+    let Some(field) = root.get("output") else {
+        return Some(Output {
+            every: 1,
+            variables: None,
+        });
+    };
+    let section = field.section(problems)?;
+    section.allow_only(&["every", "variables"], problems);
+    let every = section
+        .get("every")
+        .map_or(Some(1), |field| field.whole(1, usize::MAX, problems));
+    let variables = match section.get("variables") {
+        Some(field) => field
+            .items(VARIABLES, problems)
+            .and_then(|items| {
+                check_repeated(&items, problems);
+                collect(&items, |item| read_variable(item, subsystems, problems))
+            })
+            .map(Some),
+        None => Some(None),
+    };
+    Some(Output {
+        every: every?,
+        variables: variables?,
+    })
+}
+
+fn read_variable(
+    field: &Field<'_>,
+    subsystems: &Registry<'_>,
+    problems: &mut Problems<'_>,
+) -> Option<String> {
+    let text = field.text(problems)?;
+    match text.split_once('.') {
+        Some((name, output)) if !output.is_empty() => {
+            find_subsystem(name, field, subsystems, problems)?;
+            Some(text.to_owned())
+        }
+        _ => {
+            let kind = SceneErrorKind::InvalidReference {
+                key: field.key.clone(),
+                found: text.to_owned(),
+                allowed: "SUBSYSTEM.OUTPUT",
+            };
+            field.report(kind, problems);
+            None
+        }
+    }
+}
+
+fn check_repeated(items: &[Field<'_>], problems: &mut Problems<'_>) {
+    for (i, item) in items.iter().enumerate() {
+        let earlier = items[..i].iter().find(|earlier| {
+            earlier.peek_text().is_some() && earlier.peek_text() == item.peek_text()
+        });
+        if let (Some(earlier), Some(name)) = (earlier, item.peek_text()) {
+            let kind = SceneErrorKind::DuplicateName {
+                key: item.key.clone(),
+                name: name.to_owned(),
+                taken_by: "recorded output",
+                line: problems
+                    .written
+                    .place(&earlier.node.spot)
+                    .map(|place| place.line),
+            };
+            item.report(kind, problems);
+        }
+    }
+}
+
+fn read_run(root: &Section<'_>, problems: &mut Problems<'_>) -> Option<RunSettings> {
+    let default = RunSettings {
+        deadline: DEFAULT_DEADLINE,
+        start_timeout: DEFAULT_START_TIMEOUT,
+    };
+    let Some(field) = root.get("run") else {
+        return Some(default);
+    };
+    let section = field.section(problems)?;
+    section.allow_only(&["deadline", "start_timeout"], problems);
+    let mut seconds = |key, default| {
+        section
+            .get(key)
+            .map_or(Some(default), |field| field.number(&TIME_LIMIT, problems))
+    };
+    let deadline = seconds("deadline", default.deadline);
+    let start_timeout = seconds("start_timeout", default.start_timeout);
+    Some(RunSettings {
+        deadline: deadline?,
+        start_timeout: start_timeout?,
+    })
+}

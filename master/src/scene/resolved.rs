@@ -1,0 +1,249 @@
+//! The parts of a resolved scene: defaults filled in, references followed, units SI.
+
+use std::collections::BTreeMap;
+
+use linchpin_proto::v1;
+
+use super::overrides::Override;
+
+/// How the subsystems are coupled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// The coupling method with its parameters.
+    pub method: Method,
+    /// Degree k of the Lagrange polynomials of the coupling variables, 0 to 3. Default 1, for the explicit method 0.
+    pub degree: usize,
+    /// Macro step H in s, greater than 0 and at most the simulated time.
+    pub macro_step: f64,
+    /// Increments of the finite differences. Default automatic.
+    pub increment: Increment,
+}
+
+/// What is demanded of the joints at the macro points, and how the multipliers follow from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Method {
+    /// Schweizer & Lu, method 1: g + beta g' + gamma g'' = 0.
+    Baumgarte {
+        /// Follows from beta and gamma: see [`Index`].
+        index: Index,
+        /// Weight of the velocity in s; default 2 H.
+        beta: f64,
+        /// Weight of the acceleration in s^2; default H^2.
+        gamma: f64,
+    },
+    /// Schweizer & Lu, method 2: weighted multipliers of position, velocity and acceleration.
+    Weighted {
+        /// Follows from a and b: see [`Index`].
+        index: Index,
+        /// Weight of the velocity; default 2.
+        a: f64,
+        /// Weight of the acceleration; default 2.6.
+        b: f64,
+    },
+    /// The explicit index-1 method of Gu & Asada: (mu d/dt + 1)^2 g = 0.
+    Explicit {
+        /// Time constant in s, greater than 0.
+        mu: f64,
+    },
+    /// Spring and damper in place of the joint, all subsystems at once.
+    Jacobi {
+        /// Stiffness in N/m, greater than 0.
+        stiffness: f64,
+        /// Damping in N s/m, 0 or greater; default 0.
+        damping: f64,
+    },
+    /// Spring and damper in place of the joint, one subsystem after the other.
+    GaussSeidel {
+        /// Stiffness in N/m, greater than 0.
+        stiffness: f64,
+        /// Damping in N s/m, 0 or greater; default 0.
+        damping: f64,
+    },
+}
+
+/// Index of the coupled system: which derivatives of the constraint are demanded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Index {
+    /// Position, velocity and acceleration: both parameters are greater than 0.
+    One,
+    /// Position and velocity: the second parameter is 0.
+    Two,
+    /// Position only: both parameters are 0.
+    Three,
+}
+
+impl Index {
+    /// 1, 2 or 3.
+    pub fn number(self) -> u8 {
+        match self {
+            Self::One => 1,
+            Self::Two => 2,
+            Self::Three => 3,
+        }
+    }
+}
+
+/// Increments of the finite differences that give the coupling Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Increment {
+    /// Chosen so that the response stands well above the tolerance that the worker reports.
+    Automatic,
+    /// eps max(1, |u|) for the coupling variable u; eps greater than 0 (Schweizer & Lu, Sect. 3.3).
+    Relative(f64),
+}
+
+/// Who serves a subsystem.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Served {
+    /// A built-in model.
+    BuiltIn,
+    /// A worker that runs already, at `http://HOST:PORT` or `unix:/PATH`.
+    Address(String),
+    /// A program that the run starts: the program and its arguments.
+    Command(Vec<String>),
+}
+
+/// Whether the fused exchange may be used with a worker.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Calls {
+    /// The exchange stream where the worker serves it, otherwise single calls.
+    Automatic,
+    /// Single calls always.
+    Unary,
+}
+
+/// One instance of a model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Subsystem {
+    /// Its name, unique among subsystems and joints.
+    pub name: String,
+    /// Who serves it.
+    pub served: Served,
+    /// Its model; present for [`Served::BuiltIn`]. Absent: the only model of the worker.
+    pub model: Option<String>,
+    /// Parameters of the model, not yet checked against it.
+    pub parameters: BTreeMap<String, v1::Value>,
+    /// Solver and its options; absent: the default of the model.
+    pub solver: Option<v1::Solver>,
+    /// How the worker is called.
+    pub calls: Calls,
+}
+
+/// What a joint demands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    /// Position of b minus position of a = 0; +lambda acts on a, -lambda on b.
+    RigidLink,
+}
+
+/// One end of a joint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Side {
+    /// Place in `Scene::subsystems`.
+    pub subsystem: usize,
+    /// Marker of that subsystem; absent: its only one.
+    pub marker: Option<String>,
+}
+
+/// A constraint between two subsystems.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Joint {
+    /// Its name, unique among subsystems and joints.
+    pub name: String,
+    /// What it demands.
+    pub kind: JointKind,
+    /// The first side.
+    pub a: Side,
+    /// The second side, on another subsystem.
+    pub b: Side,
+    /// Multiplier at the start in N; absent: computed.
+    pub multiplier: Option<f64>,
+}
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// Every how many macro steps, 1 or more; default 1.
+    pub every: usize,
+    /// Outputs as `subsystem.output`, beyond those that the coupling needs.
+    pub variables: Option<Vec<String>>,
+}
+
+/// How a run treats its workers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RunSettings {
+    /// Longest time for one answer of a worker in s; default 30.
+    pub deadline: f64,
+    /// Longest time until a started worker listens in s; default 10.
+    pub start_timeout: f64,
+}
+
+/// A variant of the scene; one command runs all of them side by side.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Case {
+    /// Its name, unique among cases.
+    pub name: String,
+    /// What it changes.
+    pub overrides: Vec<Override>,
+}
+
+/// What a convergence study compares with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// The closed form of the solution, for scenes that have one.
+    ClosedForm,
+    /// The run with the smallest macro step.
+    Finest,
+}
+
+/// A convergence study.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConvergeSettings {
+    /// Two or more different macro steps in s.
+    pub macro_steps: Vec<f64>,
+    /// What the runs are compared with; default the finest run.
+    pub reference: Reference,
+}
+
+/// A stability map over two quantities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StabilitySettings {
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+}
+
+/// A quantity that is varied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// The keys that all take the value, as in an override.
+    pub keys: Vec<String>,
+    /// What the axis shows; default the last part of the first key.
+    pub label: String,
+    /// Two or more values.
+    pub values: Vec<f64>,
+}
+
+impl Axis {
+    /// The overrides that give the quantity a value.
+    pub fn overrides(&self, value: f64) -> Vec<Override> {
+        let over_ride = |key: &String| Override {
+            key: key.clone(),
+            value: toml_number(value).to_string(),
+        };
+        self.keys.iter().map(over_ride).collect()
+    }
+}
+
+/// Largest size up to which every integer is a number of double precision.
+const LARGEST_EXACT_INTEGER: f64 = 9_007_199_254_740_992.0;
+
+/// A whole number is written as such, so that it may also stand where only whole numbers are allowed.
+pub(super) fn toml_number(value: f64) -> toml::Value {
+    if value.fract() == 0.0 && value.abs() <= LARGEST_EXACT_INTEGER {
+        toml::Value::Integer(value as i64)
+    } else {
+        toml::Value::Float(value)
+    }
+}

@@ -1,0 +1,171 @@
+//! Combinations of method, index and degree that are known to be unstable before anything is run.
+//!
+//! The rules are the limits of the macro-step map for H -> 0, where masses, stiffnesses and dampings no longer matter:
+//! a free relative coordinate under the multiplier alone. They were found from the spectral radius of that map; they are
+//! necessary, so a scene that breaks one diverges, but a scene that keeps them may still diverge for large H or for
+//! beta below about 0.3 H. Methods 1 and 2 share one rule, since method 2 is method 1 with
+//! beta = a H x/v and gamma = b H^2 x, where v and x are the velocity and the position at the end of a macro step of
+//! length 1 that a unit value of the newest node causes.
+
+use std::fmt;
+
+use super::Scene;
+use super::place::Place;
+use super::resolved::{Index, Method};
+
+/// A scene that is sound but known to be unstable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Warning {
+    /// The key it refers to.
+    pub key: &'static str,
+    /// Where that key, or the nearest one around it, is set.
+    pub place: Option<Place>,
+    /// The combination.
+    pub what: String,
+    /// The rule it breaks, with numbers.
+    pub rule: String,
+    /// What to try.
+    pub remedy: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(place) = &self.place {
+            write!(f, "{place}: ")?;
+        }
+        write!(f, "{}: {}\n  help: {}", self.what, self.rule, self.remedy)
+    }
+}
+
+/// The stability limit of one degree for index 1, gamma >= offset H^2 + slope beta H, and the response to the newest node.
+struct Rule {
+    offset: f64,
+    slope: f64,
+    velocity: f64,
+    position: f64,
+}
+
+/// For degree 1, 2 and 3; degree 0 is stable at every index.
+const RULES: [Rule; 3] = [
+    Rule {
+        offset: 1.0 / 12.0,
+        slope: 0.0,
+        velocity: 1.0 / 2.0,
+        position: 1.0 / 6.0,
+    },
+    Rule {
+        offset: 1.0 / 12.0,
+        slope: 1.0 / 6.0,
+        velocity: 5.0 / 12.0,
+        position: 1.0 / 8.0,
+    },
+    Rule {
+        offset: 7.0 / 90.0,
+        slope: 1.0 / 3.0,
+        velocity: 3.0 / 8.0,
+        position: 19.0 / 180.0,
+    },
+];
+
+/// A limit is met if it is missed by rounding only.
+const ROUNDING: f64 = 1e-12;
+
+/// The known instabilities of a scene; empty if none is known.
+pub fn warnings(scene: &Scene) -> Vec<Warning> {
+    let coupling = &scene.coupling;
+    let Some(rule) = coupling.degree.checked_sub(1).and_then(|i| RULES.get(i)) else {
+        return Vec::new();
+    };
+    if scene.joints.is_empty() {
+        return Vec::new();
+    }
+    let warning = match coupling.method {
+        Method::Baumgarte {
+            index: Index::One,
+            beta,
+            gamma,
+        } => below_limit_of_gamma(coupling.degree, rule, coupling.macro_step, beta, gamma),
+        Method::Weighted {
+            index: Index::One,
+            a,
+            b,
+        } => below_limit_of_b(coupling.degree, rule, a, b),
+        Method::Baumgarte { index, .. } | Method::Weighted { index, .. } => {
+            Some(high_index(coupling.degree, index))
+        }
+        Method::Explicit { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => None,
+    };
+    warning
+        .into_iter()
+        .map(|warning| Warning {
+            place: scene.place(warning.key),
+            ..warning
+        })
+        .collect()
+}
+
+fn below_limit_of_gamma(
+    degree: usize,
+    rule: &Rule,
+    macro_step: f64,
+    beta: f64,
+    gamma: f64,
+) -> Option<Warning> {
+    let limit = rule.offset * macro_step * macro_step + rule.slope * beta * macro_step;
+    (gamma < limit * (1.0 - ROUNDING)).then(|| Warning {
+        key: "coupling.gamma",
+        place: None,
+        what: format!("baumgarte, index 1, degree {degree} is unstable with gamma = {gamma:?}"),
+        rule: format!(
+            "gamma must be at least {} = {limit:.4e} for H = {macro_step:?} and beta = {beta:?}",
+            limit_in_words(rule)
+        ),
+        remedy: "try beta = \"2H\" and gamma = \"H^2\", which is stable for degree 0 to 3, or a lower degree"
+            .to_owned(),
+    })
+}
+
+fn limit_in_words(rule: &Rule) -> String {
+    let offset = format!("{:.4} H^2", rule.offset);
+    if rule.slope == 0.0 {
+        offset
+    } else {
+        format!("{offset} + {:.4} beta H", rule.slope)
+    }
+}
+
+fn below_limit_of_b(degree: usize, rule: &Rule, a: f64, b: f64) -> Option<Warning> {
+    let offset = rule.offset / rule.position;
+    let slope = rule.slope / rule.velocity;
+    let limit = offset + slope * a;
+    (b < limit * (1.0 - ROUNDING)).then(|| Warning {
+        key: "coupling.b",
+        place: None,
+        what: format!("weighted, index 1, degree {degree} is unstable with b = {b:?}"),
+        rule: format!("b must be at least {offset:.4} + {slope:.4} a = {limit:.4} for a = {a:?}"),
+        remedy: "try a = 2 and b = 2.6, which is stable for degree 0 to 3, or a lower degree"
+            .to_owned(),
+    })
+}
+
+fn high_index(degree: usize, index: Index) -> Warning {
+    let rule = match (index, degree) {
+        (Index::Two, 1) => {
+            "index 2 with degree 1 is stable only with both a large velocity weight and damping in the subsystems"
+        }
+        (Index::Two, _) => "index 2 needs degree 0; degree 2 and 3 are unstable for any parameters",
+        _ => "index 3 needs degree 0; degree 1 to 3 are unstable for any parameters",
+    };
+    let outlook = if (index, degree) == (Index::Two, 1) {
+        "mostly unstable"
+    } else {
+        "unstable"
+    };
+    Warning {
+        key: "coupling.degree",
+        place: None,
+        what: format!("index {} with degree {degree} is {outlook}", index.number()),
+        rule: rule.to_owned(),
+        remedy: "try degree = 0, or index = 1".to_owned(),
+    }
+}

@@ -1,0 +1,210 @@
+//! The scene as written: a tree of values, each with its place in the text.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use toml::Spanned;
+use toml::de::{DeInteger, DeString, DeTable, DeValue};
+
+use super::place::{Place, Source, Spot};
+
+/// The entries of a table by key.
+pub(super) type Table = BTreeMap<String, Entry>;
+
+/// A key with its value.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Entry {
+    pub(super) key_spot: Spot,
+    pub(super) node: Node,
+}
+
+/// A value and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Node {
+    pub(super) spot: Spot,
+    pub(super) value: Value,
+}
+
+/// What TOML can say.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Value {
+    Text(String),
+    Integer(i64),
+    /// An integer of more than 64 bits.
+    Oversized(String),
+    Float(f64),
+    Flag(bool),
+    Date(String),
+    List(Vec<Node>),
+    Table(Table),
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(text) => write!(f, "the text {text:?}"),
+            Self::Integer(number) => write!(f, "{number}"),
+            Self::Oversized(digits) => write!(f, "{digits} (more than 64 bits)"),
+            Self::Float(number) => write!(f, "{number:?}"),
+            Self::Flag(flag) => write!(f, "{flag}"),
+            Self::Date(date) => write!(f, "the date {date}"),
+            Self::List(_) => f.write_str("a list"),
+            Self::Table(_) => f.write_str("a table"),
+        }
+    }
+}
+
+impl Node {
+    /// Takes over a parsed value whose spans count from `offset` in the source.
+    pub(super) fn from_toml(parsed: &Spanned<DeValue<'_>>, source: usize, offset: usize) -> Self {
+        let value = match parsed.get_ref() {
+            DeValue::String(text) => Value::Text(text.to_string()),
+            DeValue::Integer(integer) => integer_value(integer),
+            // TOML writes floats as Rust reads them; one beyond the range of f64 becomes infinite.
+            DeValue::Float(float) => Value::Float(float.as_str().parse().unwrap_or(f64::NAN)),
+            DeValue::Boolean(flag) => Value::Flag(*flag),
+            DeValue::Datetime(date) => Value::Date(date.to_string()),
+            DeValue::Array(items) => Value::List(
+                items
+                    .iter()
+                    .map(|item| Self::from_toml(item, source, offset))
+                    .collect(),
+            ),
+            DeValue::Table(table) => Value::Table(table_from_toml(table, source, offset)),
+        };
+        Self {
+            spot: spot_of(parsed, source, offset),
+            value,
+        }
+    }
+
+    /// The same value as one-line TOML, to be read again.
+    pub(super) fn to_toml(&self) -> toml::Value {
+        match &self.value {
+            Value::Text(text) | Value::Date(text) | Value::Oversized(text) => {
+                toml::Value::String(text.clone())
+            }
+            Value::Integer(number) => toml::Value::Integer(*number),
+            Value::Float(number) => toml::Value::Float(*number),
+            Value::Flag(flag) => toml::Value::Boolean(*flag),
+            Value::List(items) => toml::Value::Array(items.iter().map(Self::to_toml).collect()),
+            Value::Table(table) => toml::Value::Table(
+                table
+                    .iter()
+                    .map(|(key, entry)| (key.clone(), entry.node.to_toml()))
+                    .collect(),
+            ),
+        }
+    }
+
+    /// True if this is a table whose `name` is the given one.
+    pub(super) fn is_named(&self, name: &str) -> bool {
+        self.name() == Some(name)
+    }
+
+    /// The text under the key `name` of a table.
+    pub(super) fn name(&self) -> Option<&str> {
+        let Value::Table(table) = &self.value else {
+            return None;
+        };
+        match &table.get("name")?.node.value {
+            Value::Text(name) => Some(name),
+            _ => None,
+        }
+    }
+}
+
+fn integer_value(integer: &DeInteger<'_>) -> Value {
+    i64::from_str_radix(integer.as_str(), integer.radix())
+        .map_or_else(|_| Value::Oversized(integer.to_string()), Value::Integer)
+}
+
+fn table_from_toml(table: &DeTable<'_>, source: usize, offset: usize) -> Table {
+    table
+        .iter()
+        .map(|(key, value): (&Spanned<DeString<'_>>, _)| {
+            let entry = Entry {
+                key_spot: spot_of(key, source, offset),
+                node: Node::from_toml(value, source, offset),
+            };
+            (key.get_ref().to_string(), entry)
+        })
+        .collect()
+}
+
+fn spot_of<T>(spanned: &Spanned<T>, source: usize, offset: usize) -> Spot {
+    let span = spanned.span();
+    Spot::new(source, span.start + offset..span.end + offset)
+}
+
+/// A scene as written, together with the overrides that were put into it.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Written {
+    /// The file, then one source for each override.
+    pub(super) sources: Vec<Arc<Source>>,
+    pub(super) root: Node,
+}
+
+impl Written {
+    /// Parses a scene file; on failure the first mistake of every line with its place.
+    pub(super) fn parse(text: &str, origin: &str) -> Result<Self, Vec<(Place, String)>> {
+        let source = Arc::new(Source::file(origin, text));
+        let (table, mistakes) = DeTable::parse_recoverable(text);
+        if mistakes.is_empty() {
+            return Ok(Self {
+                sources: vec![source],
+                root: Node {
+                    spot: Spot::new(0, 0..0),
+                    value: Value::Table(table_from_toml(table.get_ref(), 0, 0)),
+                },
+            });
+        }
+        let mut reported: Vec<(Place, String)> = Vec::new();
+        for mistake in mistakes {
+            let span = mistake.span().unwrap_or(text.len()..text.len());
+            let place = Place::new(&source, &Spot::new(0, span));
+            // What follows in the same line is a consequence of the first mistake there.
+            if reported.iter().all(|(other, _)| other.line != place.line) {
+                reported.push((place, mistake.message().to_owned()));
+            }
+        }
+        Err(reported)
+    }
+
+    /// The place of a spot.
+    pub(super) fn place(&self, spot: &Spot) -> Option<Place> {
+        let source = self.sources.get(spot.source)?;
+        Some(Place::new(source, spot))
+    }
+
+    /// The entry of a list at the top level, such as `subsystem`, by its name.
+    pub(super) fn list_entry(&self, list: &str, name: &str) -> Option<&Node> {
+        let Value::Table(table) = &self.root.value else {
+            return None;
+        };
+        match &table.get(list)?.node.value {
+            Value::List(items) => items.iter().find(|item| item.is_named(name)),
+            _ => None,
+        }
+    }
+
+    /// The value at a dotted key, or at the nearest key around it; entries of lists go by their name.
+    pub(super) fn nearest_node(&self, key: &str) -> Option<&Node> {
+        let mut found = None;
+        let mut node = &self.root;
+        for part in key.split('.') {
+            let below = match &node.value {
+                Value::Table(table) => table.get(part).map(|entry| &entry.node),
+                Value::List(items) => items.iter().find(|item| item.is_named(part)),
+                _ => None,
+            };
+            match below {
+                Some(below) => node = below,
+                None => break,
+            }
+            found = Some(node);
+        }
+        found
+    }
+}
