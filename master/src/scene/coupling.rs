@@ -2,7 +2,7 @@
 
 use super::error_kind::{Names, SceneErrorKind};
 use super::formula::{Formula, Unit};
-use super::index::{PairRules, resolve_pair};
+use super::index::Weights;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
 use super::resolved::{Coupling, Increment, Method};
 use super::written::Value;
@@ -80,14 +80,18 @@ fn owners(key: &str) -> Vec<&'static str> {
         .collect()
 }
 
-pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Coupling> {
+pub(super) fn read(
+    section: &Section<'_>,
+    duration: Option<f64>,
+    problems: &mut Problems<'_>,
+) -> Option<Coupling> {
     let kind = section
         .require("method", "method = \"baumgarte\"", problems)
         .and_then(|field| field.choice(&METHODS, problems));
     check_keys(section, kind, problems);
     let macro_step = section
         .require("macro_step", "macro_step = 1e-3", problems)
-        .and_then(|field| field.number(&POSITIVE, problems));
+        .and_then(|field| read_macro_step(&field, duration, problems));
     let increment = section
         .get("increment")
         .map_or(Some(Increment::Automatic), |field| {
@@ -108,27 +112,58 @@ pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
 }
 
 fn check_keys(section: &Section<'_>, kind: Option<Kind>, problems: &mut Problems<'_>) {
-    let mut allowed = COMMON.to_vec();
-    match kind {
-        Some(kind) => allowed.extend(kind.parameters()),
-        None => allowed.extend(METHODS.iter().flat_map(|(_, kind)| kind.parameters())),
-    }
     let Some(kind) = kind else {
-        return section.allow_only(&allowed, problems);
+        return check_keys_of_all_methods(section, problems);
     };
-    let mut with_others = allowed.clone();
+    let mut allowed = COMMON.to_vec();
+    allowed.extend(kind.parameters());
     for (key, entry) in section.table {
-        if belongs_to_others(key, kind.name()) {
-            with_others.push(key);
-            let report = SceneErrorKind::KeyOfOtherMethod {
-                key: key.clone(),
-                method: kind.name(),
-                owners: Names::from(owners(key).as_slice()),
-            };
-            problems.report(&entry.key_spot, report);
+        let owners = owners(key);
+        if allowed.contains(&key.as_str()) {
+            continue;
+        }
+        if owners.is_empty() {
+            section.report_unknown_key(key, entry, &allowed, problems);
+            continue;
+        }
+        let report = SceneErrorKind::KeyOfOtherMethod {
+            key: key.clone(),
+            method: kind.name(),
+            owners: Names::from(owners.as_slice()),
+        };
+        problems.report(&entry.key_spot, report);
+    }
+}
+
+fn check_keys_of_all_methods(section: &Section<'_>, problems: &mut Problems<'_>) {
+    let mut allowed = COMMON.to_vec();
+    for key in METHODS.iter().flat_map(|(_, kind)| kind.parameters()) {
+        if !allowed.contains(key) {
+            allowed.push(key);
         }
     }
-    section.allow_only(&with_others, problems);
+    section.allow_only(&allowed, problems);
+}
+
+/// A macro step in s: greater than 0 and at most the simulated time.
+pub(super) fn read_macro_step(
+    field: &Field<'_>,
+    duration: Option<f64>,
+    problems: &mut Problems<'_>,
+) -> Option<f64> {
+    let macro_step = field.number(&POSITIVE, problems)?;
+    match duration {
+        Some(duration) if macro_step > duration => {
+            let kind = SceneErrorKind::StepTooLong {
+                key: field.key.clone(),
+                macro_step,
+                duration,
+            };
+            field.report(kind, problems);
+            None
+        }
+        _ => Some(macro_step),
+    }
 }
 
 fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Increment> {
@@ -146,23 +181,21 @@ fn read_method(
 ) -> Option<Method> {
     match kind {
         Kind::Baumgarte => {
-            let rules = PairRules {
+            let weights = Weights {
                 method: kind.name(),
-                first: ("beta", Formula::multiple(2.0, Unit::Time), "\"2H\""),
+                first: ("beta", Formula::multiple(2.0, Unit::Time)),
                 second: ("gamma", Formula::multiple(1.0, Unit::TimeSquared)),
-                units: (Unit::Time, Unit::TimeSquared),
             };
-            let (index, beta, gamma) = resolve_pair(&rules, section, macro_step, problems)?;
+            let (index, beta, gamma) = weights.resolve(section, macro_step, problems)?;
             Some(Method::Baumgarte { index, beta, gamma })
         }
         Kind::Weighted => {
-            let rules = PairRules {
+            let weights = Weights {
                 method: kind.name(),
-                first: ("a", Formula::multiple(2.0, Unit::Plain), "2"),
+                first: ("a", Formula::multiple(2.0, Unit::Plain)),
                 second: ("b", Formula::multiple(2.6, Unit::Plain)),
-                units: (Unit::Plain, Unit::Plain),
             };
-            let (index, a, b) = resolve_pair(&rules, section, macro_step, problems)?;
+            let (index, a, b) = weights.resolve(section, macro_step, problems)?;
             Some(Method::Weighted { index, a, b })
         }
         Kind::Explicit => {

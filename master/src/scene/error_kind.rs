@@ -209,7 +209,7 @@ pub enum SceneErrorKind {
         /// The other parameter as `name = value`.
         second: String,
         /// A value that would do.
-        example: &'static str,
+        example: String,
     },
     /// The end does not lie after the start.
     #[error("t_end = {t_end:?} s must lie after t_start = {t_start:?} s, by a finite time")]

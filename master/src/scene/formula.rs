@@ -80,6 +80,10 @@ impl Formula {
         Some(formula)
     }
 
+    pub(super) fn unit(self) -> Unit {
+        self.unit
+    }
+
     pub(super) fn is_zero(self) -> bool {
         self.factor == 0.0
     }

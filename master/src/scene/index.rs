@@ -1,19 +1,16 @@
 //! The index of a coupling method and the two parameters from which it follows.
 
 use super::error_kind::SceneErrorKind;
-use super::formula::{Formula, Unit};
+use super::formula::Formula;
 use super::place::Spot;
 use super::reader::{Field, Problems, Section};
 use super::resolved::Index;
 
-/// The two parameters of a method: the weights of velocity and acceleration.
-pub(super) struct PairRules {
+/// The two parameters of a method, the weights of velocity and acceleration: their names and defaults.
+pub(super) struct Weights {
     pub(super) method: &'static str,
-    /// Name, default, and the default as it is written.
-    pub(super) first: (&'static str, Formula, &'static str),
-    /// Name and default.
+    pub(super) first: (&'static str, Formula),
     pub(super) second: (&'static str, Formula),
-    pub(super) units: (Unit, Unit),
 }
 
 /// The index that belongs to two weights, if any does.
@@ -26,44 +23,88 @@ fn index_of(first: Formula, second: Formula) -> Option<Index> {
     }
 }
 
-/// Index and parameters of a method; what is not given follows from what is.
-pub(super) fn resolve_pair(
-    rules: &PairRules,
-    section: &Section<'_>,
-    macro_step: Option<f64>,
-    problems: &mut Problems<'_>,
-) -> Option<(Index, f64, f64)> {
-    let index = read_optional(section.get("index"), |field| read_index(field, problems));
-    let first_field = section.get(rules.first.0);
-    let first = read_optional(first_field, |field| {
-        Formula::read(field, rules.units.0, problems)
-    });
-    let second_field = section.get(rules.second.0);
-    let second = read_optional(second_field, |field| {
-        Formula::read(field, rules.units.1, problems)
-    });
-    let (given, first, second) = (index?, first?, second?);
-    let assumed = given.or((first.is_none() && second.is_none()).then_some(Index::One));
-    let first = first.unwrap_or(match assumed {
-        Some(Index::One | Index::Two) => rules.first.1,
-        _ => Formula::ZERO,
-    });
-    let second = second.unwrap_or(match assumed {
-        Some(Index::One) => rules.second.1,
-        _ => Formula::ZERO,
-    });
-    let index = match (given, index_of(first, second)) {
-        (None, Some(index)) => index,
-        (Some(given), Some(index)) if given == index => index,
-        (given, fits) => {
-            let kind = contradiction(rules, given, fits, (first, second));
-            problems.report(latest_spot(rules, section), kind);
+impl Weights {
+    /// Index and parameters of a method; what is not given follows from what is.
+    pub(super) fn resolve(
+        &self,
+        section: &Section<'_>,
+        macro_step: Option<f64>,
+        problems: &mut Problems<'_>,
+    ) -> Option<(Index, f64, f64)> {
+        let index = read_optional(section.get("index"), |field| read_index(field, problems));
+        let first = read_weight(section, self.first, problems);
+        let second = read_weight(section, self.second, problems);
+        let (given, first, second) = (index?, first?, second?);
+        let nothing_given = given.is_none() && first.is_none() && second.is_none();
+        let assumed = given.or(nothing_given.then_some(Index::One));
+        let first = first.unwrap_or(match assumed {
+            Some(Index::One | Index::Two) => self.first.1,
+            _ => Formula::ZERO,
+        });
+        let second = second.unwrap_or(match assumed {
+            Some(Index::One) => self.second.1,
+            _ => Formula::ZERO,
+        });
+        let fits = index_of(first, second);
+        let Some(index) = fits.filter(|fits| given.is_none_or(|given| given == *fits)) else {
+            let kind = self.contradiction(given, fits, first, second);
+            problems.report(self.latest_spot(section), kind);
             return None;
+        };
+        let first = value(first, macro_step?, self.first.0, section, problems);
+        let second = value(second, macro_step?, self.second.0, section, problems);
+        Some((index, first?, second?))
+    }
+
+    fn contradiction(
+        &self,
+        given: Option<Index>,
+        fits: Option<Index>,
+        first: Formula,
+        second: Formula,
+    ) -> SceneErrorKind {
+        let (first_name, second_name) = (self.first.0, self.second.0);
+        let second = format!("{second_name} = {second}");
+        let Some(index) = given else {
+            return SceneErrorKind::NoSuchIndex {
+                first_name,
+                second,
+                example: self.first.1.to_string(),
+            };
+        };
+        SceneErrorKind::IndexContradiction {
+            method: self.method,
+            index: index.number(),
+            needs: match index {
+                Index::One => format!("{first_name} > 0 and {second_name} > 0"),
+                Index::Two => format!("{first_name} > 0 and {second_name} = 0"),
+                Index::Three => format!("{first_name} = 0 and {second_name} = 0"),
+            },
+            first: format!("{first_name} = {first}"),
+            second,
+            fits: fits.map(Index::number),
         }
-    };
-    let first = value(first, macro_step?, rules.first.0, section, problems);
-    let second = value(second, macro_step?, rules.second.0, section, problems);
-    Some((index, first?, second?))
+    }
+
+    /// The index, or that of its parameters that was set last: an override is more likely to be the mistake.
+    fn latest_spot<'w>(&self, section: &Section<'w>) -> &'w Spot {
+        [self.second.0, self.first.0, "index"]
+            .iter()
+            .filter_map(|name| section.get(name))
+            .map(|field| &field.node.spot)
+            .max_by_key(|spot| spot.source)
+            .unwrap_or(section.spot)
+    }
+}
+
+fn read_weight(
+    section: &Section<'_>,
+    (name, default): (&'static str, Formula),
+    problems: &mut Problems<'_>,
+) -> Option<Option<Formula>> {
+    read_optional(section.get(name), |field| {
+        Formula::read(field, default.unit(), problems)
+    })
 }
 
 /// Absent is `Some(None)`; `None` is a mistake that has been reported.
@@ -100,42 +141,4 @@ fn value(
         .at(macro_step, &section.key_of(name))
         .map_err(|kind| problems.report(spot, kind))
         .ok()
-}
-
-fn contradiction(
-    rules: &PairRules,
-    given: Option<Index>,
-    fits: Option<Index>,
-    (first, second): (Formula, Formula),
-) -> SceneErrorKind {
-    let (first_name, second_name) = (rules.first.0, rules.second.0);
-    match given {
-        Some(index) => SceneErrorKind::IndexContradiction {
-            method: rules.method,
-            index: index.number(),
-            needs: match index {
-                Index::One => format!("{first_name} > 0 and {second_name} > 0"),
-                Index::Two => format!("{first_name} > 0 and {second_name} = 0"),
-                Index::Three => format!("{first_name} = 0 and {second_name} = 0"),
-            },
-            first: format!("{first_name} = {first}"),
-            second: format!("{second_name} = {second}"),
-            fits: fits.map(Index::number),
-        },
-        None => SceneErrorKind::NoSuchIndex {
-            first_name,
-            second: format!("{second_name} = {second}"),
-            example: rules.first.2,
-        },
-    }
-}
-
-/// The index, or that of its parameters that was set last: an override is more likely to be the mistake.
-fn latest_spot<'w>(rules: &PairRules, section: &Section<'w>) -> &'w Spot {
-    [rules.second.0, rules.first.0, "index"]
-        .iter()
-        .filter_map(|name| section.get(name))
-        .map(|field| &field.node.spot)
-        .max_by_key(|spot| spot.source)
-        .unwrap_or(section.spot)
 }

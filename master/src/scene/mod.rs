@@ -12,7 +12,7 @@ mod formula;
 mod index;
 mod joint;
 mod names;
-mod nearest;
+pub(crate) mod nearest;
 mod overrides;
 mod place;
 mod reader;

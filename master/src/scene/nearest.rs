@@ -4,7 +4,7 @@
 const LONGEST: usize = 64;
 
 /// The name in `known` nearest to `name`: at most one edit in three letters away, upper and lower case alike.
-pub(super) fn nearest<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
+pub(crate) fn nearest<'k>(name: &str, known: impl IntoIterator<Item = &'k str>) -> Option<String> {
     if name.len() > LONGEST {
         return None;
     }

@@ -300,17 +300,26 @@ impl<'w> Section<'w> {
     /// Reports every key that is not among the allowed ones.
     pub(super) fn allow_only(&self, allowed: &[&str], problems: &mut Problems<'_>) {
         for (key, entry) in self.table {
-            if allowed.contains(&key.as_str()) {
-                continue;
+            if !allowed.contains(&key.as_str()) {
+                self.report_unknown_key(key, entry, allowed, problems);
             }
-            let kind = SceneErrorKind::UnknownKey {
-                key: key.clone(),
-                section: self.title(),
-                allowed: Names::from(allowed),
-                nearest: nearest(key, allowed.iter().copied()),
-            };
-            problems.report(&entry.key_spot, kind);
         }
+    }
+
+    pub(super) fn report_unknown_key(
+        &self,
+        key: &str,
+        entry: &Entry,
+        allowed: &[&str],
+        problems: &mut Problems<'_>,
+    ) {
+        let kind = SceneErrorKind::UnknownKey {
+            key: key.to_owned(),
+            section: self.title(),
+            allowed: Names::from(allowed),
+            nearest: nearest(key, allowed.iter().copied()),
+        };
+        problems.report(&entry.key_spot, kind);
     }
 
     fn title(&self) -> String {

@@ -63,11 +63,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
             problems,
         )
         .and_then(|field| field.section(problems))
-        .and_then(|section| {
-            let coupling = coupling::read(&section, problems);
-            check_step_of_coupling(&section, duration, problems)?;
-            coupling
-        });
+        .and_then(|section| coupling::read(&section, duration, problems));
     let subsystem_tables = sections(&root, "subsystem", problems);
     let joint_tables = sections(&root, "joint", problems);
     let subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
@@ -151,23 +147,6 @@ fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head>
         t_start,
         t_end,
     })
-}
-
-/// Checked apart from the method, so that it shows beside other mistakes of the coupling.
-fn check_step_of_coupling(
-    section: &Section<'_>,
-    duration: Option<f64>,
-    problems: &mut Problems<'_>,
-) -> Option<()> {
-    let Some(field) = section.get("macro_step") else {
-        return Some(());
-    };
-    let macro_step = match field.node.value {
-        Value::Float(value) => value,
-        Value::Integer(value) => value as f64,
-        _ => return Some(()),
-    };
-    sweeps::check_macro_step(macro_step, &field, duration, problems).map(drop)
 }
 
 /// The tables of a list, each under its name.

@@ -1,6 +1,6 @@
 //! Reads the studies over a scene: `[[case]]`, `[converge]` and `[stability]`.
 
-use super::error_kind::SceneErrorKind;
+use super::coupling::read_macro_step;
 use super::overrides::{Assignment, Override};
 use super::reader::{FINITE, Field, POSITIVE, Problems, Section};
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
@@ -84,10 +84,7 @@ fn read_macro_steps(
     let steps: Vec<Option<f64>> = field
         .items(STEPS, problems)?
         .iter()
-        .map(|item| {
-            let step = item.number(&POSITIVE, problems)?;
-            check_macro_step(step, item, duration, problems)
-        })
+        .map(|item| read_macro_step(item, duration, problems))
         .collect();
     let steps = steps.into_iter().collect::<Option<Vec<f64>>>()?;
     let mut different = steps.clone();
@@ -97,25 +94,6 @@ fn read_macro_steps(
         return field.wrong_type(STEPS, problems);
     }
     Some(steps)
-}
-
-/// A macro step in s, unless it is longer than the simulated time.
-pub(super) fn check_macro_step(
-    macro_step: f64,
-    field: &Field<'_>,
-    duration: Option<f64>,
-    problems: &mut Problems<'_>,
-) -> Option<f64> {
-    let Some(duration) = duration.filter(|duration| macro_step > *duration) else {
-        return Some(macro_step);
-    };
-    let kind = SceneErrorKind::StepTooLong {
-        key: field.key.clone(),
-        macro_step,
-        duration,
-    };
-    field.report(kind, problems);
-    None
 }
 
 pub(super) fn read_stability(

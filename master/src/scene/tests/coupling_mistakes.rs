@@ -88,7 +88,11 @@ fn an_index_that_contradicts_the_parameters_is_told_with_the_one_that_fits() {
         assert_coupling_mistake(settings, "index", &words);
     }
     let no_index = "method = 'baumgarte'\ngamma = 1e-6";
-    assert_coupling_mistake(no_index, "gamma", &["gamma = 1e-6", "beta = 0", "\"2H\""]);
+    assert_coupling_mistake(
+        no_index,
+        "gamma",
+        &["gamma = 1e-6", "beta = 0", "\"2.0 H\""],
+    );
     assert_coupling_mistake(
         "method = 'weighted'\nindex = 4",
         "index",

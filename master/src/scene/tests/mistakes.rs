@@ -46,6 +46,14 @@ fn unknown_keys_are_told_with_the_nearest_one() {
 }
 
 #[test]
+fn the_keys_of_other_methods_are_not_offered() {
+    let text = edited(&[(BETA, "beta = 2e-3\nzzz = 1\nmu = 1")]);
+    let shown = parse(&text, ORIGIN, &[]).unwrap_err().to_string();
+    let offered = "it has method, degree, macro_step, increment, index, beta, gamma\n";
+    assert!(shown.contains(offered), "{shown}");
+}
+
+#[test]
 fn a_name_that_is_not_near_is_not_suggested() {
     let text = edited(&[(BETA, "beta = 2e-3\nzzz = 1")]);
     let error = only(parse(&text, ORIGIN, &[]).unwrap_err());
