@@ -1,0 +1,177 @@
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use plotters::coord::Shift;
+use plotters::drawing::DrawingAreaErrorKind;
+use plotters::prelude::*;
+use plotters::style::{ShapeStyle, register_font};
+
+use super::error::PlotError;
+use super::style::UNITS_PER_PIXEL;
+
+/// Name under which the embedded font is registered. The SVG carries it as its font list, and so looks for the same
+/// font, or one with the same widths, on the reader's machine.
+pub(super) const FONT_FAMILY: &str = "DejaVu Sans, Verdana, sans-serif";
+
+static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
+
+const CHANNELS: usize = 3;
+
+/// Result of drawing on the backend `DB`.
+pub(super) type Drawn<DB, T = ()> =
+    Result<T, DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+
+/// A backend with its own way to draw a line through many points.
+pub(super) trait Surface: DrawingBackend {
+    /// Draws straight lines between neighbouring points.
+    fn polyline(
+        area: &DrawingArea<Self, Shift>,
+        points: &[(i32, i32)],
+        style: ShapeStyle,
+    ) -> Drawn<Self>;
+}
+
+impl Surface for SVGBackend<'_> {
+    fn polyline(
+        area: &DrawingArea<Self, Shift>,
+        points: &[(i32, i32)],
+        style: ShapeStyle,
+    ) -> Drawn<Self> {
+        area.draw(&PathElement::new(points, style))
+    }
+}
+
+/// Every segment by itself with round joins: plotters 0.3.7 fills the outline of a bent line as one polygon, which leaves
+/// long spikes at sharp turns.
+impl Surface for BitMapBackend<'_> {
+    fn polyline(
+        area: &DrawingArea<Self, Shift>,
+        points: &[(i32, i32)],
+        style: ShapeStyle,
+    ) -> Drawn<Self> {
+        let join = style.stroke_width / 2;
+        for (index, segment) in points.windows(2).enumerate() {
+            if index > 0 {
+                area.draw(&Circle::new(segment[0], join, style.filled()))?;
+            }
+            area.draw(&PathElement::new(segment, style))?;
+        }
+        Ok(())
+    }
+}
+
+/// Something of a fixed size that can be drawn on any surface.
+pub(super) trait Picture {
+    /// Width and height in pixels.
+    fn size(&self) -> (u32, u32);
+
+    /// Draws the picture in drawing units, on a white ground.
+    fn draw<DB: Surface>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB>;
+}
+
+/// Makes the embedded font known to plotters; needed before any text is measured.
+pub(super) fn embed_font() -> Result<(), PlotError> {
+    static REGISTERED: OnceLock<bool> = OnceLock::new();
+    let readable =
+        REGISTERED.get_or_init(|| register_font(FONT_FAMILY, FontStyle::Normal, FONT).is_ok());
+    readable.then_some(()).ok_or(PlotError::Font)
+}
+
+/// Writes `STEM.svg` and `STEM.png`.
+pub(super) fn write(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
+    write_svg(picture, stem)?;
+    write_png(picture, stem)
+}
+
+fn with_ending(stem: &Path, ending: &str) -> PathBuf {
+    let mut path = OsString::from(stem);
+    path.push(ending);
+    path.into()
+}
+
+fn fine_size(picture: &impl Picture) -> (u32, u32) {
+    let (width, height) = picture.size();
+    (
+        width * UNITS_PER_PIXEL.unsigned_abs(),
+        height * UNITS_PER_PIXEL.unsigned_abs(),
+    )
+}
+
+fn paint<DB: Surface>(picture: &impl Picture, backend: DB, stem: &Path) -> Result<(), PlotError> {
+    let area = backend.into_drawing_area();
+    area.fill(&WHITE)
+        .and_then(|()| picture.draw(&area))
+        .and_then(|()| area.present())
+        .map_err(|error| PlotError::drawing(stem, &error))
+}
+
+fn write_svg(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
+    let mut drawing = String::new();
+    paint(
+        picture,
+        SVGBackend::with_string(&mut drawing, fine_size(picture)),
+        stem,
+    )?;
+    let path = with_ending(stem, ".svg");
+    std::fs::write(&path, in_pixels(&drawing, picture))
+        .map_err(|source| PlotError::WriteSvg { path, source })
+}
+
+/// The drawing shown at the size of the picture, with the round line joins of the PNG and no seams between rectangles.
+fn in_pixels(drawing: &str, picture: &impl Picture) -> String {
+    const STYLE: &str =
+        "<style>svg{stroke-linejoin:round} rect{shape-rendering:crispEdges}</style>";
+    let (width, height) = picture.size();
+    let (fine_width, fine_height) = fine_size(picture);
+    let namespace = r#"xmlns="http://www.w3.org/2000/svg">"#;
+    drawing
+        .replacen(
+            &format!(r#"width="{fine_width}" height="{fine_height}""#),
+            &format!(r#"width="{width}" height="{height}""#),
+            1,
+        )
+        .replacen(namespace, &format!("{namespace}\n{STYLE}"), 1)
+        .replace(r#" opacity="1""#, "")
+}
+
+fn write_png(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
+    let fine_size = fine_size(picture);
+    let mut fine = vec![0; fine_size.0 as usize * fine_size.1 as usize * CHANNELS];
+    paint(
+        picture,
+        BitMapBackend::with_buffer(&mut fine, fine_size),
+        stem,
+    )?;
+    let path = with_ending(stem, ".png");
+    let mut file = BitMapBackend::new(&path, picture.size());
+    let pixels = averaged(&fine, fine_size.0 as usize);
+    let written = file
+        .blit_bitmap((0, 0), picture.size(), &pixels)
+        .and_then(|()| file.present());
+    drop(file);
+    written.map_err(|source| PlotError::WritePng {
+        path,
+        source: source.into(),
+    })
+}
+
+/// One pixel for each square of drawing units: plotters does not smooth slanted edges.
+fn averaged(fine: &[u8], fine_width: usize) -> Vec<u8> {
+    let side = UNITS_PER_PIXEL.unsigned_abs() as usize;
+    let fine_row = fine_width * CHANNELS;
+    let mut pixels = Vec::with_capacity(fine.len() / (side * side));
+    for rows in fine.chunks_exact(fine_row * side) {
+        for column in (0..fine_row).step_by(side * CHANNELS) {
+            for channel in 0..CHANNELS {
+                let square = (0..side)
+                    .flat_map(|row| (0..side).map(move |step| row * fine_row + step * CHANNELS));
+                let sum: usize = square
+                    .map(|offset| usize::from(rows[column + channel + offset]))
+                    .sum();
+                pixels.push((sum / (side * side)) as u8);
+            }
+        }
+    }
+    pixels
+}

@@ -1,0 +1,36 @@
+//! Pictures of numerical results: data in, one SVG and one PNG out.
+//!
+//! Three charts: [`time_panels`] (quantities over time), [`convergence`] (log-log curves with reference slopes; a
+//! work-precision diagram is the same chart with cost on the abscissa) and [`map`] (stability over two parameters).
+//! All of them write `STEM.svg` and `STEM.png` from one drawing.
+//!
+//! What cannot be drawn is a gap in a line, never a failure: NaN, infinity, a magnitude above 1e300, and on a logarithmic
+//! axis everything below 1e-300, zero and negative numbers.
+
+mod axis;
+mod canvas;
+mod colour;
+mod convergence;
+mod error;
+mod grid;
+mod legend;
+mod map;
+mod panel;
+mod scale;
+mod slope;
+mod slope_label;
+mod style;
+mod thinning;
+mod tick;
+mod tiling;
+mod time_panels;
+
+pub use convergence::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, convergence};
+pub use error::PlotError;
+pub use grid::{MapAxis, MapCell, MapPanel, Verdict};
+pub use map::{StabilityMap, map};
+pub use scale::Scale;
+pub use time_panels::{TimePanel, TimePanels, TimeSeries, time_panels};
+
+#[cfg(test)]
+mod tests;

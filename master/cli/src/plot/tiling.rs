@@ -1,0 +1,57 @@
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::canvas::Surface;
+use super::error::PlotError;
+
+/// Width in pixels of every picture.
+pub(super) const PICTURE_WIDTH: f64 = 1200.0;
+
+const SINGLE_PANEL_HEIGHT: f64 = 760.0;
+const PANEL_HEIGHT: f64 = 520.0;
+const MOST_PANELS: usize = 12;
+
+/// Refuses more panels than a picture holds.
+pub(super) fn check_number(panels: usize) -> Result<(), PlotError> {
+    if panels > MOST_PANELS {
+        return Err(PlotError::TooManyPanels {
+            panels,
+            allowed: MOST_PANELS,
+        });
+    }
+    Ok(())
+}
+
+/// Equal places for panels: one, or two in a row.
+pub(super) struct Tiling {
+    rows: usize,
+    columns: usize,
+}
+
+impl Tiling {
+    pub(super) fn new(panels: usize) -> Self {
+        let columns = panels.clamp(1, 2);
+        Self {
+            rows: panels.div_ceil(columns),
+            columns,
+        }
+    }
+
+    /// Height in pixels.
+    pub(super) fn height(&self) -> f64 {
+        let panel = if self.columns == 1 {
+            SINGLE_PANEL_HEIGHT
+        } else {
+            PANEL_HEIGHT
+        };
+        self.rows as f64 * panel
+    }
+
+    /// The places row by row.
+    pub(super) fn places<DB: Surface>(
+        &self,
+        area: &DrawingArea<DB, Shift>,
+    ) -> Vec<DrawingArea<DB, Shift>> {
+        area.split_evenly((self.rows, self.columns))
+    }
+}

@@ -1,0 +1,284 @@
+use std::path::Path;
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::Axis;
+use super::canvas::{Drawn, Picture, Surface, embed_font, write};
+use super::error::PlotError;
+use super::legend::{Legend, distinct};
+use super::panel::{
+    Axes, Panel, RIGHT_MARGIN, height_for_label, room_above, room_below, room_left,
+};
+use super::scale::Scale;
+use super::style::{FRAME, TITLE_TEXT, curve_style, fitted, stroke, text, units};
+use super::thinning::thinned;
+use super::tiling::{PICTURE_WIDTH, check_number};
+
+/// Quantities over a common time axis, one panel above the other.
+#[derive(Clone, Debug)]
+pub struct TimePanels {
+    /// Title of the picture.
+    pub title: Option<String>,
+    /// Label of the time axis, with its unit.
+    pub time_label: String,
+    /// Panels from top to bottom, at most 12.
+    pub panels: Vec<TimePanel>,
+}
+
+/// One panel of [`TimePanels`].
+#[derive(Clone, Debug)]
+pub struct TimePanel {
+    /// Label of the y axis, with its unit.
+    pub y_label: String,
+    /// Scale of the y axis.
+    pub y_scale: Scale,
+    /// Curves; equal names in several panels have equal colours.
+    pub series: Vec<TimeSeries>,
+}
+
+/// One quantity over time.
+#[derive(Clone, Debug)]
+pub struct TimeSeries {
+    /// Name in the legend.
+    pub name: String,
+    /// Times, not decreasing.
+    pub t: Vec<f64>,
+    /// One value for each time.
+    pub y: Vec<f64>,
+}
+
+/// Writes `STEM.svg` and `STEM.png` with all panels above each other. A legend is added if a panel has several series.
+///
+/// Long series are thinned out to the extremes within each pixel column, which does not change the picture.
+///
+/// # Errors
+/// [`PlotError`]: lengths of `t` and `y` differ, times decrease, too many panels, no point to draw, unwritable path.
+pub fn time_panels(plot: &TimePanels, stem: &Path) -> Result<(), PlotError> {
+    embed_font()?;
+    check_number(plot.panels.len())?;
+    all_series(plot).try_for_each(checked)?;
+    let layout = Layout::new(plot).ok_or_else(|| PlotError::NoData {
+        stem: stem.to_path_buf(),
+    })?;
+    write(&layout, stem)
+}
+
+const TITLE_HEIGHT: f64 = 42.0;
+const PANEL_HEIGHT: f64 = 250.0;
+const HIGHEST_PANEL: f64 = 420.0;
+const Y_MARGIN: f64 = 0.06;
+const LINE_WIDTH: f64 = 1.75;
+const DOT_RADIUS: f64 = 1.75;
+const MARKER_RADIUS: f64 = 5.0;
+const MARKERS_PER_SERIES: usize = 9;
+
+/// Pixel columns that a series is thinned out to, fewer when many series share the picture.
+const COLUMNS: usize = 1000;
+const COLUMNS_OF_ALL_SERIES: usize = 5500;
+
+fn all_series(plot: &TimePanels) -> impl Iterator<Item = &TimeSeries> {
+    plot.panels.iter().flat_map(|panel| &panel.series)
+}
+
+fn checked(series: &TimeSeries) -> Result<(), PlotError> {
+    if series.t.len() != series.y.len() {
+        let (times, values) = (series.t.len(), series.y.len());
+        return Err(PlotError::UnequalLengths {
+            series: series.name.clone(),
+            times,
+            values,
+        });
+    }
+    match series.t.windows(2).position(|pair| pair[1] < pair[0]) {
+        None => Ok(()),
+        Some(before) => Err(PlotError::TimeDecreases {
+            series: series.name.clone(),
+            index: before + 1,
+            before: series.t[before],
+            time: series.t[before + 1],
+        }),
+    }
+}
+
+impl TimePanel {
+    fn drawable(&self) -> impl Iterator<Item = (f64, f64)> {
+        let holds = |&(t, y): &(f64, f64)| Scale::Linear.holds(t) && self.y_scale.holds(y);
+        self.series
+            .iter()
+            .flat_map(TimeSeries::points)
+            .filter(holds)
+    }
+
+    fn axis(&self) -> Axis {
+        let Some(extent) = self.y_scale.extent(self.drawable().map(|(_, y)| y)) else {
+            return Axis::blank();
+        };
+        let range = self.y_scale.padded(self.y_scale.opened(extent), Y_MARGIN);
+        Axis::vertical(self.y_scale, range, units(self.height() - room_above("")))
+    }
+
+    fn height(&self) -> f64 {
+        PANEL_HEIGHT.max(room_above("") + height_for_label(&self.y_label, HIGHEST_PANEL))
+    }
+}
+
+impl TimeSeries {
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.t.iter().copied().zip(self.y.iter().copied())
+    }
+}
+
+/// A picture with all ranges and sizes decided.
+struct Layout<'a> {
+    plot: &'a TimePanels,
+    names: Vec<&'a str>,
+    legend: Legend,
+    time: Axis,
+    values: Vec<Axis>,
+    left: i32,
+    columns: usize,
+}
+
+impl<'a> Layout<'a> {
+    fn new(plot: &'a TimePanels) -> Option<Self> {
+        let times = plot
+            .panels
+            .iter()
+            .flat_map(TimePanel::drawable)
+            .map(|(t, _)| t);
+        let time_range = Scale::Linear.opened(Scale::Linear.extent(times)?);
+        let values: Vec<Axis> = plot.panels.iter().map(TimePanel::axis).collect();
+        let left = values.iter().map(room_left).max().unwrap_or(0);
+        let names = names_to_tell_apart(plot);
+        let width = units(PICTURE_WIDTH - RIGHT_MARGIN) - left;
+        Some(Self {
+            plot,
+            legend: Legend::of_curves(&names, LINE_WIDTH, units(PICTURE_WIDTH)),
+            names,
+            time: Axis::horizontal(Scale::Linear, time_range, width),
+            values,
+            left,
+            columns: COLUMNS
+                .min(COLUMNS_OF_ALL_SERIES / all_series(plot).count().max(1))
+                .max(50),
+        })
+    }
+
+    fn draw_panel<DB: Surface>(
+        &self,
+        area: &DrawingArea<DB, Shift>,
+        panel: &TimePanel,
+        values: &Axis,
+        x_label: Option<&str>,
+    ) -> Drawn<DB> {
+        let axes = Axes {
+            title: "",
+            x: self.time.clone(),
+            y: values.clone(),
+            x_label,
+            y_label: &panel.y_label,
+            left: self.left,
+            grid: true,
+        };
+        let inside = Panel::new(area, axes)?;
+        if panel.drawable().next().is_none() {
+            return inside.note_no_data();
+        }
+        panel
+            .series
+            .iter()
+            .try_for_each(|series| self.draw_series(&inside, series))
+    }
+
+    fn draw_series<DB: Surface>(&self, inside: &Panel<DB>, series: &TimeSeries) -> Drawn<DB> {
+        let index = self.names.iter().position(|name| *name == series.name);
+        let (colour, marker) = curve_style(index.unwrap_or(0));
+        let mut places = Vec::new();
+        for run in thinned(series.points(), &inside.x, &inside.y, self.columns) {
+            let run: Vec<(i32, i32)> = run.into_iter().map(|point| inside.place(point)).collect();
+            match run[..] {
+                [alone] => {
+                    inside
+                        .area
+                        .draw(&Circle::new(alone, units(DOT_RADIUS), colour.filled()))?
+                }
+                _ => DB::polyline(&inside.area, &run, stroke(colour, LINE_WIDTH))?,
+            }
+            places.extend(run);
+        }
+        let Some(index) = index else { return Ok(()) };
+        let offset = (index as f64 + 0.5) / self.names.len() as f64;
+        for centre in spread(&places, inside.width, offset) {
+            marker.draw(&inside.area, centre, units(MARKER_RADIUS), colour)?;
+        }
+        Ok(())
+    }
+}
+
+/// Names of the series that share a panel; a series alone in its panel is told by the label of the axis.
+fn names_to_tell_apart(plot: &TimePanels) -> Vec<&str> {
+    let shared = plot.panels.iter().filter(|panel| panel.series.len() > 1);
+    distinct(
+        shared
+            .flat_map(|panel| &panel.series)
+            .map(|series| series.name.as_str()),
+    )
+}
+
+/// Some of the places, about equally far apart; `offset` moves them, so that coinciding curves stay distinguishable.
+fn spread(places: &[(i32, i32)], width: i32, offset: f64) -> impl Iterator<Item = (i32, i32)> {
+    let distance = f64::from(width) / MARKERS_PER_SERIES as f64;
+    (0..MARKERS_PER_SERIES).filter_map(move |count| {
+        let wanted = ((count as f64 + offset) * distance) as i32;
+        let next = places.partition_point(|place| place.0 < wanted);
+        places
+            .get(next)
+            .copied()
+            .filter(|place| f64::from(place.0 - wanted) < distance)
+    })
+}
+
+/// Draws the title over the middle of the area and gives back what is below it.
+fn below_title<DB: Surface>(
+    area: &DrawingArea<DB, Shift>,
+    title: &str,
+) -> Drawn<DB, DrawingArea<DB, Shift>> {
+    let width = area.dim_in_pixel().0 as i32;
+    let (head, rest) = area.split_vertically(units(TITLE_HEIGHT));
+    let style = text(TITLE_TEXT, FRAME, HPos::Center, VPos::Center);
+    head.draw_text(
+        &fitted(title, TITLE_TEXT, width),
+        &style,
+        (width / 2, units(TITLE_HEIGHT / 2.0)),
+    )?;
+    Ok(rest)
+}
+
+impl Picture for Layout<'_> {
+    fn size(&self) -> (u32, u32) {
+        let title = self.plot.title.as_ref().map_or(0.0, |_| TITLE_HEIGHT);
+        let panels: f64 = self.plot.panels.iter().map(TimePanel::height).sum();
+        let height = title + self.legend.height() + panels + room_below();
+        (PICTURE_WIDTH as u32, height.ceil() as u32)
+    }
+
+    fn draw<DB: Surface>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        let rest = match &self.plot.title {
+            Some(title) => below_title(area, title)?,
+            None => area.clone(),
+        };
+        let (head, mut rest) = rest.split_vertically(units(self.legend.height()));
+        self.legend.draw(&head)?;
+        let last = self.plot.panels.len().saturating_sub(1);
+        for (index, (panel, values)) in self.plot.panels.iter().zip(&self.values).enumerate() {
+            let x_label = (index == last).then_some(self.plot.time_label.as_str());
+            let height = panel.height() + x_label.map_or(0.0, |_| room_below());
+            let (own, below) = rest.split_vertically(units(height));
+            self.draw_panel(&own, panel, values, x_label)?;
+            rest = below;
+        }
+        Ok(())
+    }
+}
