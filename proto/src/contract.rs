@@ -106,3 +106,48 @@ impl From<Failure> for CallError {
         Self::Failed(failure)
     }
 }
+
+impl<T: Contract + ?Sized> Contract for std::sync::Arc<T> {
+    fn describe(&self, request: &DescribeRequest) -> Result<DescribeReply, CallError> {
+        (**self).describe(request)
+    }
+
+    fn initialize(&self, request: &InitializeRequest) -> Result<InitializeReply, CallError> {
+        (**self).initialize(request)
+    }
+
+    fn snapshot(&self, request: &SnapshotRequest) -> Result<SnapshotReply, CallError> {
+        (**self).snapshot(request)
+    }
+
+    fn restore(&self, request: &RestoreRequest) -> Result<RestoreReply, CallError> {
+        (**self).restore(request)
+    }
+
+    fn step(&self, request: &StepRequest) -> Result<StepReply, CallError> {
+        (**self).step(request)
+    }
+
+    fn perturbed_step(
+        &self,
+        request: &PerturbedStepRequest,
+    ) -> Result<PerturbedStepReply, CallError> {
+        (**self).perturbed_step(request)
+    }
+
+    fn evaluate(&self, request: &EvaluateRequest) -> Result<EvaluateReply, CallError> {
+        (**self).evaluate(request)
+    }
+
+    fn terminate(&self, request: &TerminateRequest) -> Result<TerminateReply, CallError> {
+        (**self).terminate(request)
+    }
+
+    fn exchange(
+        &self,
+        request: &ExchangeRequest,
+        reply: &mut ExchangeReply,
+    ) -> Result<(), CallError> {
+        (**self).exchange(request, reply)
+    }
+}

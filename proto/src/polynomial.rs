@@ -144,6 +144,16 @@ impl Polynomial {
     }
 }
 
+impl Signal {
+    /// Makes the signal the constant `value`; its memory is kept.
+    pub fn set_constant(&mut self, value: f64) {
+        self.nodes.clear();
+        self.nodes.push(0.0);
+        self.values.clear();
+        self.values.push(value);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,1 +1,13 @@
-//! x
+//! The command line tool `linchpin`: runs scenes, studies them, serves the built-in models.
+//!
+//! * [`connect`]: workers of a scene, in processes of their own or in this one;
+//! * [`simulate`]: one run;
+//! * [`closed_form`]: the exact solution of scenes that have one;
+//! * [`error_norm`]: errors of a run;
+//! * [`plot`]: pictures.
+
+pub mod closed_form;
+pub mod connect;
+pub mod error_norm;
+pub mod plot;
+pub mod simulate;

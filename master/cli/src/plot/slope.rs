@@ -21,12 +21,20 @@ pub(super) fn draw_slopes<DB: Surface>(
     let curves: Vec<Vec<(f64, f64)>> = curves.iter().map(|curve| shares(panel, curve)).collect();
     let aspect = panel.x.span() / panel.y.span();
     let line = |slope| reference_line(panel, &curves, slope * aspect, LIKENESS * aspect);
-    let lines: Vec<(f64, Line)> =
-        slopes.iter().filter_map(|&slope| Some((slope, line(slope)?))).collect();
-    let mut taken: Vec<(i32, i32)> =
-        curves.iter().flat_map(|curve| sampled_curve(panel, curve)).collect();
+    let lines: Vec<(f64, Line)> = slopes
+        .iter()
+        .filter_map(|&slope| Some((slope, line(slope)?)))
+        .collect();
+    let mut taken: Vec<(i32, i32)> = curves
+        .iter()
+        .flat_map(|curve| sampled_curve(panel, curve))
+        .collect();
     for (_, line) in &lines {
-        DB::polyline(&panel.area, &[line.from, line.to], stroke(REFERENCE, LINE_WIDTH))?;
+        DB::polyline(
+            &panel.area,
+            &[line.from, line.to],
+            stroke(REFERENCE, LINE_WIDTH),
+        )?;
         taken.extend(line.sampled());
     }
     for (slope, line) in &lines {

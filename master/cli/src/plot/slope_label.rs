@@ -60,7 +60,13 @@ impl Label {
 
     pub(super) fn corners(&self, (x, y): (i32, i32)) -> [(i32, i32); 5] {
         let (w, h) = (self.half_width, self.half_height);
-        [(x - w, y - h), (x + w, y - h), (x, y), (x - w, y + h), (x + w, y + h)]
+        [
+            (x - w, y - h),
+            (x + w, y - h),
+            (x, y),
+            (x - w, y + h),
+            (x + w, y + h),
+        ]
     }
 
     /// The place beside the line, inside the panel, that is farthest from everything taken.
@@ -88,13 +94,19 @@ impl Label {
 
     /// Shift from a point of the line, square to the line, after which the label just does not touch it.
     fn clear_of(&self, line: &Line) -> (i32, i32) {
-        let (x, y) = (f64::from(line.to.0 - line.from.0), f64::from(line.to.1 - line.from.1));
+        let (x, y) = (
+            f64::from(line.to.0 - line.from.0),
+            f64::from(line.to.1 - line.from.1),
+        );
         let length = x.hypot(y).max(1.0);
         let normal = (-y / length, x / length);
         let reach = f64::from(self.half_width) * normal.0.abs()
             + f64::from(self.half_height) * normal.1.abs()
             + f64::from(units(GAP));
-        ((reach * normal.0).round() as i32, (reach * normal.1).round() as i32)
+        (
+            (reach * normal.0).round() as i32,
+            (reach * normal.1).round() as i32,
+        )
     }
 
     /// Distance to the nearest taken place in half sizes of the label: below 1 they overlap, beyond 2 it is far enough.

@@ -1,0 +1,101 @@
+//! How the command line tool reaches the workers of a scene.
+
+use std::sync::{Arc, OnceLock};
+use std::time::Duration;
+
+use linchpin_master::connection::{
+    Connection, Direct, Launcher, StartError, Threaded, TimeLimits, UnaryTurns, Way, connect,
+    new_runtime, start,
+};
+use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
+use linchpin_models::models;
+use linchpin_worker::Host;
+use tokio::runtime::Runtime;
+
+/// Where built-in models run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// Each in a worker process of its own that the run starts and ends.
+    Processes,
+    /// In this process, one after the other.
+    InProcess,
+    /// In this process, each on a thread of its own.
+    Threads,
+}
+
+/// Makes the connections of one run. Workers that were started end with their connections.
+pub struct Connector {
+    place: Place,
+    runtime: OnceLock<Arc<Runtime>>,
+    launcher: OnceLock<Launcher>,
+}
+
+impl Connector {
+    /// A connector; nothing is started yet.
+    pub fn new(place: Place) -> Self {
+        Self { place, runtime: OnceLock::new(), launcher: OnceLock::new() }
+    }
+
+    /// The connection to the worker of `subsystem`.
+    pub fn connect(
+        &self,
+        scene: &Scene,
+        subsystem: &Subsystem,
+    ) -> Result<Box<dyn Connection>, StartError> {
+        match &subsystem.served {
+            Served::BuiltIn if self.place != Place::Processes => Ok(self.in_this_process(subsystem)),
+            Served::BuiltIn => {
+                let program = std::env::current_exe()?;
+                let program = program.to_string_lossy().into_owned();
+                let command = [program, "worker".into(), "--exit-with-stdin".into()];
+                start(self.launcher()?, &subsystem.name, &command, &self.way(scene, subsystem)?)
+            }
+            Served::Command(command) => {
+                start(self.launcher()?, &subsystem.name, command, &self.way(scene, subsystem)?)
+            }
+            Served::Address(address) => Ok(connect(address, &self.way(scene, subsystem)?)?),
+        }
+    }
+
+    fn in_this_process(&self, subsystem: &Subsystem) -> Box<dyn Connection> {
+        let host = Arc::new(Host::new(models()));
+        match (subsystem.calls, self.place) {
+            (Calls::Unary, _) => Box::new(Threaded::new(
+                Arc::new(UnaryTurns::new(host)),
+                "in process, unary calls",
+            )),
+            (Calls::Automatic, Place::Threads) => {
+                Box::new(Threaded::new(host, "in process, own thread"))
+            }
+            (Calls::Automatic, _) => Box::new(Direct::new(host)),
+        }
+    }
+
+    fn way(&self, scene: &Scene, subsystem: &Subsystem) -> Result<Way, StartError> {
+        Ok(Way {
+            model: subsystem.model.clone(),
+            unary_only: subsystem.calls == Calls::Unary,
+            limits: TimeLimits {
+                start: Duration::from_secs_f64(scene.run.start_timeout),
+                answer: Duration::from_secs_f64(scene.run.deadline),
+            },
+            runtime: self.runtime()?,
+        })
+    }
+
+    fn runtime(&self) -> Result<Arc<Runtime>, StartError> {
+        if let Some(runtime) = self.runtime.get() {
+            return Ok(Arc::clone(runtime));
+        }
+        let runtime = new_runtime()?;
+        Ok(Arc::clone(self.runtime.get_or_init(|| runtime)))
+    }
+
+    fn launcher(&self) -> Result<&Launcher, StartError> {
+        if let Some(launcher) = self.launcher.get() {
+            return Ok(launcher);
+        }
+        let launcher = Launcher::new()?;
+        Ok(self.launcher.get_or_init(|| launcher))
+    }
+}

@@ -1,0 +1,75 @@
+//! Errors of a run against an exact solution.
+
+use linchpin_master::results::Row;
+
+use crate::closed_form::{ClosedForm, Quantity};
+
+/// Error of one column over the macro points seen so far.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct ColumnError {
+    squares: f64,
+    exact_squares: f64,
+    largest: f64,
+}
+
+impl ColumnError {
+    /// Takes the value at one macro point.
+    pub fn add(&mut self, value: f64, exact: f64) {
+        let error = value - exact;
+        self.squares += error * error;
+        self.exact_squares += exact * exact;
+        self.largest = self.largest.max(error.abs());
+    }
+
+    /// Root mean square of the error over that of the exact values (NRMS); infinite if the latter is 0.
+    pub fn normalised(&self) -> f64 {
+        (self.squares / self.exact_squares).sqrt()
+    }
+
+    /// Largest absolute error.
+    pub fn largest(&self) -> f64 {
+        self.largest
+    }
+
+    /// The errors of several columns as one: the error of the vector of their values.
+    pub fn together(errors: impl IntoIterator<Item = Self>) -> Self {
+        errors.into_iter().fold(Self::default(), |sum, error| Self {
+            squares: sum.squares + error.squares,
+            exact_squares: sum.exact_squares + error.exact_squares,
+            largest: sum.largest.max(error.largest),
+        })
+    }
+}
+
+/// Compares rows with the closed form of their scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ErrorMeter {
+    closed_form: ClosedForm,
+    columns: Vec<(usize, String, Quantity, ColumnError)>,
+}
+
+impl ErrorMeter {
+    /// A meter for rows like `row`.
+    pub fn new(closed_form: ClosedForm, row: &Row) -> Self {
+        let known = row.columns().iter().enumerate().filter_map(|(place, name)| {
+            let quantity = closed_form.quantity(name)?;
+            Some((place, name.clone(), quantity, ColumnError::default()))
+        });
+        Self { columns: known.collect(), closed_form }
+    }
+
+    /// Takes the row of one macro point.
+    pub fn add(&mut self, row: &Row) {
+        let t = row.values()[0];
+        for (place, _, quantity, error) in &mut self.columns {
+            if let Some(exact) = self.closed_form.value(*quantity, t) {
+                error.add(row.values()[*place], exact);
+            }
+        }
+    }
+
+    /// Name and error of every column that has an exact value.
+    pub fn errors(&self) -> impl Iterator<Item = (&str, &ColumnError)> {
+        self.columns.iter().map(|(_, name, _, error)| (name.as_str(), error))
+    }
+}

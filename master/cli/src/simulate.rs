@@ -1,0 +1,57 @@
+//! Runs a scene from start to end and hands every recorded row on.
+
+use linchpin_master::cosimulation::Options;
+use linchpin_master::results::{Row, Statistics};
+use linchpin_master::scene::Scene;
+use linchpin_master::{CoSimulation, RunError};
+
+use crate::connect::Connector;
+
+/// Gets the rows of a run.
+pub trait Recorder {
+    /// Why a row could not be taken.
+    type Error;
+
+    /// The run starts; `row` has the column names and the values at the first macro point.
+    fn begin(&mut self, row: &Row) -> Result<(), Self::Error>;
+
+    /// One recorded macro point, the first one included.
+    fn record(&mut self, row: &Row) -> Result<(), Self::Error>;
+
+    /// After every macro step, recorded or not.
+    fn progress(&mut self, _done: usize, _all: usize, _t: f64) {}
+}
+
+/// A run that ended early.
+#[derive(Debug, thiserror::Error)]
+pub enum SimulateError<E> {
+    /// The co-simulation stopped.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A result could not be kept.
+    #[error("{0}")]
+    Record(E),
+}
+
+/// Runs `scene` to its end. The first and the last macro point are always recorded, and every
+/// `output.every`-th between them.
+pub fn simulate<R: Recorder>(
+    scene: &Scene,
+    connector: &Connector,
+    options: &Options,
+    recorder: &mut R,
+) -> Result<Statistics, SimulateError<R::Error>> {
+    let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
+    let mut simulation = CoSimulation::start(scene, &mut connect, options)?;
+    let all = simulation.grid().len();
+    recorder.begin(simulation.row()).map_err(SimulateError::Record)?;
+    recorder.record(simulation.row()).map_err(SimulateError::Record)?;
+    while simulation.macro_step()? {
+        let done = simulation.steps_done();
+        if done % scene.output.every == 0 || done == all {
+            recorder.record(simulation.row()).map_err(SimulateError::Record)?;
+        }
+        recorder.progress(done, all, simulation.t());
+    }
+    Ok(simulation.statistics())
+}

@@ -1,0 +1,170 @@
+//! The unary calls of a worker behind gRPC, as blocking calls.
+
+use std::future::Future;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::status::to_error;
+use linchpin_proto::v1::worker_client::WorkerClient;
+use linchpin_proto::v1::*;
+use tokio::runtime::Runtime;
+use tonic::transport::{Channel, Endpoint};
+use tonic::{Response, Status};
+
+use super::TimeLimits;
+
+/// Largest message that is accepted, in bytes.
+const MESSAGE_LIMIT: usize = 16 << 20;
+
+/// First pause between two attempts to reach a worker that is starting; doubled up to [`LONGEST_PAUSE`].
+const FIRST_PAUSE: Duration = Duration::from_millis(2);
+const LONGEST_PAUSE: Duration = Duration::from_millis(100);
+
+/// A worker behind gRPC.
+pub struct Grpc {
+    pub(super) client: WorkerClient<Channel>,
+    pub(super) runtime: Arc<Runtime>,
+    pub(super) limits: TimeLimits,
+}
+
+/// A runtime for the connections of one thread. It runs only while a call blocks on it.
+pub fn new_runtime() -> std::io::Result<Arc<Runtime>> {
+    let runtime = tokio::runtime::Builder::new_current_thread()
+        .enable_all()
+        .build()?;
+    Ok(Arc::new(runtime))
+}
+
+impl Grpc {
+    /// Connects to `address`, trying again until the time limit for starts is over.
+    pub fn connect(
+        address: &str,
+        limits: TimeLimits,
+        runtime: Arc<Runtime>,
+    ) -> Result<Self, CallError> {
+        let unreachable = |reason: String| CallError::Unreachable {
+            address: address.into(),
+            reason,
+        };
+        let endpoint = Endpoint::from_shared(address.to_owned())
+            .map_err(|error| unreachable(innermost(&error)))?
+            .tcp_nodelay(true)
+            .connect_timeout(limits.start);
+        let channel = runtime
+            .block_on(reach(&endpoint, limits.start))
+            .map_err(|error| unreachable(innermost(&error)))?;
+        let client = WorkerClient::new(channel)
+            .max_decoding_message_size(MESSAGE_LIMIT)
+            .max_encoding_message_size(MESSAGE_LIMIT);
+        Ok(Self {
+            client,
+            runtime,
+            limits,
+        })
+    }
+
+    fn call<Q: Clone, A, F>(
+        &self,
+        name: &'static str,
+        request: &Q,
+        call: impl FnOnce(WorkerClient<Channel>, Q) -> F,
+    ) -> Result<A, CallError>
+    where
+        F: Future<Output = Result<Response<A>, Status>>,
+    {
+        let answer = call(self.client.clone(), request.clone());
+        let limit = self.limits.answer;
+        match self
+            .runtime
+            .block_on(async { tokio::time::timeout(limit, answer).await })
+        {
+            Ok(Ok(response)) => Ok(response.into_inner()),
+            Ok(Err(status)) => Err(to_error(name, &status)),
+            Err(_) => Err(CallError::Deadline {
+                seconds: limit.as_secs_f64(),
+            }),
+        }
+    }
+}
+
+async fn reach(endpoint: &Endpoint, limit: Duration) -> Result<Channel, tonic::transport::Error> {
+    let give_up = Instant::now() + limit;
+    let mut pause = FIRST_PAUSE;
+    loop {
+        match endpoint.connect().await {
+            Ok(channel) => return Ok(channel),
+            Err(error) if Instant::now() + pause >= give_up => return Err(error),
+            Err(_) => tokio::time::sleep(pause).await,
+        }
+        pause = (2 * pause).min(LONGEST_PAUSE);
+    }
+}
+
+/// What went wrong at the bottom: the transport's own words for the top say only "transport error".
+fn innermost(error: &dyn std::error::Error) -> String {
+    let mut error = error;
+    while let Some(source) = error.source() {
+        error = source;
+    }
+    error.to_string()
+}
+
+impl Contract for Grpc {
+    fn describe(&self, request: &DescribeRequest) -> Result<DescribeReply, CallError> {
+        self.call("Describe", request, async |mut client, request| {
+            client.describe(request).await
+        })
+    }
+
+    fn initialize(&self, request: &InitializeRequest) -> Result<InitializeReply, CallError> {
+        self.call("Initialize", request, async |mut client, request| {
+            client.initialize(request).await
+        })
+    }
+
+    fn snapshot(&self, request: &SnapshotRequest) -> Result<SnapshotReply, CallError> {
+        self.call("Snapshot", request, async |mut client, request| {
+            client.snapshot(request).await
+        })
+    }
+
+    fn restore(&self, request: &RestoreRequest) -> Result<RestoreReply, CallError> {
+        self.call("Restore", request, async |mut client, request| {
+            client.restore(request).await
+        })
+    }
+
+    fn step(&self, request: &StepRequest) -> Result<StepReply, CallError> {
+        self.call("Step", request, async |mut client, request| {
+            client.step(request).await
+        })
+    }
+
+    fn perturbed_step(
+        &self,
+        request: &PerturbedStepRequest,
+    ) -> Result<PerturbedStepReply, CallError> {
+        self.call("PerturbedStep", request, async |mut client, request| {
+            client.perturbed_step(request).await
+        })
+    }
+
+    fn evaluate(&self, request: &EvaluateRequest) -> Result<EvaluateReply, CallError> {
+        self.call("Evaluate", request, async |mut client, request| {
+            client.evaluate(request).await
+        })
+    }
+
+    fn terminate(&self, request: &TerminateRequest) -> Result<TerminateReply, CallError> {
+        self.call("Terminate", request, async |mut client, request| {
+            client.terminate(request).await
+        })
+    }
+
+    fn exchange(&self, _: &ExchangeRequest, _: &mut ExchangeReply) -> Result<(), CallError> {
+        Err(CallError::Unimplemented {
+            call: "Exchange as a unary call",
+        })
+    }
+}

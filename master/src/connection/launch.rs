@@ -1,0 +1,165 @@
+//! Starting worker processes, and making sure that none outlives its master.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+/// Placeholder for the address in a worker's command.
+const ADDRESS: &str = "{address}";
+
+/// How long a worker may take to end once its input is closed, before it is killed.
+const GRACE: Duration = Duration::from_millis(500);
+
+/// Lines of error output that are shown when a worker dies.
+const LAST_LINES: usize = 6;
+
+/// Why a worker process could not be started.
+#[derive(Debug, thiserror::Error)]
+pub enum LaunchError {
+    /// No folder for sockets.
+    #[error(
+        "cannot make a folder for the sockets of the workers: {source}; set TMPDIR to a writable place"
+    )]
+    Folder {
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// The command is empty.
+    #[error("the command is empty; give at least the program")]
+    NoProgram,
+    /// The program cannot run.
+    #[error("cannot start `{command}`: {source}")]
+    Spawn {
+        /// The command.
+        command: String,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+}
+
+/// Starts workers, each on a Unix socket of its own in a private folder.
+pub struct Launcher {
+    folder: TempDir,
+}
+
+impl Launcher {
+    /// Makes the folder.
+    pub fn new() -> Result<Self, LaunchError> {
+        let folder = tempfile::Builder::new()
+            .prefix("linchpin-")
+            .tempdir()
+            .map_err(|source| LaunchError::Folder { source })?;
+        Ok(Self { folder })
+    }
+
+    /// Starts `command` for subsystem `name`. `{address}` in it becomes the address to listen on; without the
+    /// placeholder, `--listen ADDRESS` is appended.
+    pub fn start(&self, name: &str, command: &[String]) -> Result<WorkerProcess, LaunchError> {
+        let address = format!(
+            "unix:{}",
+            self.folder.path().join(format!("{name}.sock")).display()
+        );
+        let (program, arguments) = command.split_first().ok_or(LaunchError::NoProgram)?;
+        let mut process = Command::new(program);
+        process.args(
+            arguments
+                .iter()
+                .map(|argument| argument.replace(ADDRESS, &address)),
+        );
+        if !command.iter().any(|argument| argument.contains(ADDRESS)) {
+            process.args(["--listen", &address]);
+        }
+        let log = self.folder.path().join(format!("{name}.log"));
+        let output = File::create(&log).map_err(|source| LaunchError::Folder { source })?;
+        process
+            .stdin(Stdio::piped())
+            .stdout(Stdio::null())
+            .stderr(output);
+        die_with_parent(&mut process);
+        let child = process.spawn().map_err(|source| LaunchError::Spawn {
+            command: command.join(" "),
+            source,
+        })?;
+        Ok(WorkerProcess {
+            child,
+            address,
+            log,
+        })
+    }
+}
+
+/// Asks the kernel to end the worker with its master, however the master ends.
+#[cfg(target_os = "linux")]
+// `pre_exec` is unsafe because its closure runs between fork and exec; this one makes a single system call.
+#[allow(unsafe_code)]
+fn die_with_parent(command: &mut Command) {
+    use std::os::unix::process::CommandExt;
+    let set_signal = || {
+        rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL))
+            .map_err(std::io::Error::from)
+    };
+    // SAFETY: the closure neither allocates nor takes locks.
+    unsafe { command.pre_exec(set_signal) };
+}
+
+/// Other systems rely on the closed standard input.
+#[cfg(not(target_os = "linux"))]
+fn die_with_parent(_: &mut Command) {}
+
+/// A running worker. Dropping it ends it.
+pub struct WorkerProcess {
+    child: Child,
+    address: String,
+    log: PathBuf,
+}
+
+impl WorkerProcess {
+    /// Where it listens, as in a scene.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
+    /// Number of the process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
+    /// The file with its error output.
+    pub fn log(&self) -> &Path {
+        &self.log
+    }
+
+    /// Whether it ended, and how.
+    pub fn ended(&mut self) -> Option<String> {
+        let status = self.child.try_wait().ok().flatten()?;
+        Some(status.to_string())
+    }
+
+    /// The last lines of its error output.
+    pub fn last_words(&self) -> String {
+        let text = std::fs::read(&self.log).unwrap_or_default();
+        let text = String::from_utf8_lossy(&text);
+        let lines: Vec<&str> = text.lines().collect();
+        lines[lines.len().saturating_sub(LAST_LINES)..].join("\n")
+    }
+}
+
+impl Drop for WorkerProcess {
+    fn drop(&mut self) {
+        // The closed input asks a Linchpin worker to end; one that does not listen to it is killed.
+        drop(self.child.stdin.take());
+        let give_up = Instant::now() + GRACE;
+        while Instant::now() < give_up {
+            if !matches!(self.child.try_wait(), Ok(None)) {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        // Errors here mean that it is gone already.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

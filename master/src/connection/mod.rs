@@ -1,0 +1,199 @@
+//! Connections to workers: in this process, on another thread, or behind gRPC.
+//!
+//! A [`Connection`] splits the exchange in two, so that all workers compute at the same time: the master posts to
+//! every worker, then collects from every worker.
+
+mod direct;
+mod grpc;
+mod launch;
+mod stream;
+mod threaded;
+mod unary_turns;
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
+use linchpin_proto::version::PROTOCOL;
+use tokio::runtime::Runtime;
+
+pub use direct::Direct;
+pub use grpc::{Grpc, new_runtime};
+pub use launch::{LaunchError, Launcher, WorkerProcess};
+pub use stream::ExchangeStream;
+pub use threaded::Threaded;
+pub use unary_turns::UnaryTurns;
+
+/// A worker that one subsystem of a scene lives in.
+pub trait Connection: Send {
+    /// The calls outside the macro step.
+    fn contract(&self) -> &dyn Contract;
+
+    /// Sends a request; its answer is due at [`Connection::collect`]. One at a time.
+    fn post(&mut self, request: &ExchangeRequest) -> Result<(), CallError>;
+
+    /// Waits for the answer to the posted request. `reply` is overwritten.
+    fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError>;
+
+    /// What a worker that this master started wrote last to its error output; empty if unknown.
+    fn last_words(&self) -> String {
+        String::new()
+    }
+
+    /// Which way the exchange takes, for the summary.
+    fn route(&self) -> &'static str;
+}
+
+/// Time limits of a connection.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeLimits {
+    /// For a worker to start or to be reached.
+    pub start: Duration,
+    /// For one answer.
+    pub answer: Duration,
+}
+
+/// How a worker is reached.
+#[derive(Clone)]
+pub struct Way {
+    /// Model that will be used; `None`: the worker's first.
+    pub model: Option<String>,
+    /// Never use the exchange stream.
+    pub unary_only: bool,
+    /// Time limits.
+    pub limits: TimeLimits,
+    /// Drives all streams of a master.
+    pub runtime: Arc<Runtime>,
+}
+
+/// Connects to the worker at `address` (`http://HOST:PORT` or `unix:/PATH`) and chooses its route: the exchange stream
+/// where the worker serves it, otherwise the unary calls on a thread of its own.
+pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallError> {
+    let grpc = Grpc::connect(address, way.limits, Arc::clone(&way.runtime))?;
+    let description = grpc.describe(&v1::DescribeRequest {
+        protocol: Some(PROTOCOL),
+    })?;
+    if !way.unary_only && serves_exchange(&description, way.model.as_deref()) {
+        return Ok(Box::new(ExchangeStream::new(grpc)));
+    }
+    // Its own runtime: the unary calls of several workers run at the same time on several threads.
+    let runtime = new_runtime().map_err(|error| CallError::Unreachable {
+        address: address.to_owned(),
+        reason: error.to_string(),
+    })?;
+    let grpc = Grpc::connect(address, way.limits, runtime)?;
+    Ok(Box::new(Threaded::new(
+        Arc::new(UnaryTurns::new(grpc)),
+        "unary calls",
+    )))
+}
+
+fn serves_exchange(description: &v1::DescribeReply, model: Option<&str>) -> bool {
+    let mut models = description.models.iter();
+    let model = match model {
+        Some(name) => models.find(|model| model.name == name),
+        None => models.next(),
+    };
+    model
+        .and_then(|model| model.capabilities)
+        .is_some_and(|capabilities| capabilities.exchange)
+}
+
+/// Why a worker is not there.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// Its process could not be started.
+    #[error(transparent)]
+    Launch(#[from] LaunchError),
+    /// Its process ended before it answered.
+    #[error("the worker ended before it answered ({status}){}", after_colon(.last_words))]
+    Ended {
+        /// How it ended.
+        status: String,
+        /// Last lines of its error output.
+        last_words: String,
+    },
+    /// It does not answer.
+    #[error("{0}; is the worker running, and is the address right?")]
+    Call(#[from] CallError),
+    /// The connections of this master cannot be driven.
+    #[error("cannot set up the connections: {0}")]
+    Runtime(#[from] std::io::Error),
+}
+
+fn after_colon(words: &str) -> String {
+    if words.is_empty() {
+        String::new()
+    } else {
+        format!(": {words}")
+    }
+}
+
+/// How long one attempt to reach a starting worker lasts before its process is looked after.
+const ATTEMPT: Duration = Duration::from_millis(50);
+
+/// Starts `command` as the worker of subsystem `name` and connects to it.
+pub fn start(
+    launcher: &Launcher,
+    name: &str,
+    command: &[String],
+    way: &Way,
+) -> Result<Box<dyn Connection>, StartError> {
+    let mut process = launcher.start(name, command)?;
+    let give_up = Instant::now() + way.limits.start;
+    loop {
+        let attempt = Way {
+            limits: TimeLimits {
+                start: ATTEMPT,
+                ..way.limits
+            },
+            ..way.clone()
+        };
+        let reached = connect(process.address(), &attempt);
+        if let Some(status) = process.ended() {
+            return Err(StartError::Ended {
+                status,
+                last_words: process.last_words(),
+            });
+        }
+        match reached {
+            Ok(connection) => {
+                return Ok(Box::new(Owned {
+                    connection,
+                    process,
+                }));
+            }
+            Err(CallError::Unreachable { .. }) if Instant::now() < give_up => {}
+            Err(error) => return Err(error.into()),
+        }
+    }
+}
+
+/// A connection together with the worker process that serves it; the process ends with the connection.
+struct Owned {
+    connection: Box<dyn Connection>,
+    process: WorkerProcess,
+}
+
+impl Connection for Owned {
+    fn contract(&self) -> &dyn Contract {
+        self.connection.contract()
+    }
+
+    fn post(&mut self, request: &ExchangeRequest) -> Result<(), CallError> {
+        self.connection.post(request)
+    }
+
+    fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError> {
+        self.connection.collect(reply)
+    }
+
+    fn last_words(&self) -> String {
+        self.process.last_words()
+    }
+
+    fn route(&self) -> &'static str {
+        self.connection.route()
+    }
+}

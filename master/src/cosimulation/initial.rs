@@ -1,0 +1,172 @@
+//! Consistent multipliers at the first macro point.
+
+use super::{Parts, at_start};
+use crate::coupling::columns::Column;
+use crate::coupling::layout::{Layout, MarkedJoint};
+use crate::coupling::solve::{LinearSolver, SingularColumn};
+use crate::coupling::system::System;
+use crate::error::RunError;
+use crate::joint::{Level, extent};
+use crate::scene::Scene;
+use crate::signal::combine;
+
+/// Joints that are open by less than this share of the motion are closed up to rounding.
+const CLOSED: f64 = 1e-9;
+
+/// Multipliers with which the run starts.
+pub(super) struct InitialState {
+    pub(super) multipliers: Vec<f64>,
+}
+
+/// No load at the start.
+pub(super) fn at_rest(parts: &Parts) -> InitialState {
+    InitialState {
+        multipliers: vec![0.0; parts.layout.rows()],
+    }
+}
+
+impl InitialState {
+    /// Takes the multipliers from the scene where it gives them all; otherwise solves `g'' = 0` at `t_start`, which is
+    /// linear in them because loads enter the equations of motion linearly (for the oscillator: S1 eq. 3).
+    pub(super) fn find(
+        scene: &Scene,
+        joints: &[MarkedJoint],
+        parts: &Parts,
+        accept_open_joints: bool,
+    ) -> Result<Self, RunError> {
+        if !accept_open_joints {
+            check_closed(scene, parts)?;
+        }
+        let given: Option<Vec<f64>> = scene.joints.iter().map(|joint| joint.multiplier).collect();
+        if let Some(multipliers) = given {
+            return Ok(Self { multipliers });
+        }
+        let subsystems = parts.subsystems.len();
+        let layout = Layout::new(joints, subsystems, Level::Acceleration)
+            .map_err(|lacks| ask_for_multiplier(scene, lacks.joint))?;
+        Ok(Self {
+            multipliers: solve_accelerations(scene, &layout, parts)?,
+        })
+    }
+
+    /// Reads the outputs of all subsystems at `t` under these multipliers.
+    pub(super) fn read_outputs(&self, t: f64, parts: &mut Parts) -> Result<(), RunError> {
+        for number in 0..parts.subsystems.len() {
+            let inputs = self.inputs(&parts.layout, number);
+            let subsystem = &mut parts.subsystems[number];
+            subsystem.outputs = subsystem.evaluate(t, &inputs, &subsystem.output_names)?;
+        }
+        Ok(())
+    }
+
+    /// Driven inputs of one subsystem; motion of a partner counts as absent.
+    fn inputs(&self, layout: &Layout, number: usize) -> Vec<f64> {
+        let rows = layout.rows();
+        let load = |input: &crate::coupling::layout::DrivenInput| {
+            let loads = input
+                .combination
+                .iter()
+                .filter(|(variable, _)| *variable < rows);
+            combine(&loads.copied().collect::<Vec<_>>(), &self.multipliers)
+        };
+        layout.inputs_of(number).map(load).collect()
+    }
+}
+
+fn solve_accelerations(
+    scene: &Scene,
+    layout: &Layout,
+    parts: &Parts,
+) -> Result<Vec<f64>, RunError> {
+    let t = scene.t_start;
+    let rows = layout.rows();
+    let free = evaluate_all(layout, parts, t, None)?;
+    let mut columns = Vec::with_capacity(layout.inputs.len());
+    for (number, input) in layout.inputs.iter().enumerate() {
+        let loaded = evaluate_one(layout, parts, t, input.subsystem, Some(number))?;
+        let mut column = Column {
+            increment: 1.0,
+            ..Column::default()
+        };
+        column.difference(&free[input.subsystem], &loaded);
+        columns.push(column);
+    }
+    let mut system = System::new(rows, Level::Acceleration);
+    let outputs = |subsystem: usize| free[subsystem].as_slice();
+    system.assemble_residuals(layout, outputs);
+    system.assemble_jacobians(layout, outputs, &columns);
+    let (jacobian, solution) = system.level_equation(Level::Acceleration);
+    LinearSolver::new(rows)
+        .solve(jacobian, solution)
+        .map_err(|SingularColumn(row)| RunError::Singular {
+            joint: layout.joints[row].name.clone(),
+            level: Level::Acceleration.name(),
+            t,
+            step: 0.0,
+        })?;
+    Ok(solution.to_vec())
+}
+
+fn evaluate_all(
+    layout: &Layout,
+    parts: &Parts,
+    t: f64,
+    loaded: Option<usize>,
+) -> Result<Vec<Vec<f64>>, RunError> {
+    (0..parts.subsystems.len())
+        .map(|number| evaluate_one(layout, parts, t, number, loaded))
+        .collect()
+}
+
+/// Outputs that `layout` reads of one subsystem, with a unit load at input `loaded`.
+fn evaluate_one(
+    layout: &Layout,
+    parts: &Parts,
+    t: f64,
+    number: usize,
+    loaded: Option<usize>,
+) -> Result<Vec<f64>, RunError> {
+    let own = layout
+        .inputs
+        .iter()
+        .enumerate()
+        .filter(|(_, input)| input.subsystem == number);
+    let inputs: Vec<f64> = own
+        .map(|(input, _)| if Some(input) == loaded { 1.0 } else { 0.0 })
+        .collect();
+    parts.subsystems[number].evaluate(t, &inputs, &layout.outputs[number])
+}
+
+/// Refuses a scene whose joints are open at the start, on the levels that the method demands below the acceleration.
+fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
+    let layout = &parts.layout;
+    let outputs = evaluate_all(layout, parts, scene.t_start, None)?;
+    for (row, joint) in layout.joints.iter().enumerate() {
+        let motion = crate::coupling::system::motion_of(layout, row, |s| outputs[s].as_slice());
+        for &level in layout.level.up_to() {
+            let residual = joint.law.condition(level, &motion);
+            let sizes = motion.map(|end| [end[level as usize], 0.0, 0.0]);
+            if level < Level::Acceleration && residual.abs() > CLOSED * extent(&sizes) {
+                let message = format!(
+                    "the joint is open at t = {} s: its residual on {} level is {residual:e}",
+                    at_start(scene.t_start).start,
+                    level.name()
+                );
+                let help = "choose initial values of the two subsystems that meet the joint";
+                let key = format!("joint.{}", joint.name);
+                return Err(scene.error(&key, message, Some(help.into())).into());
+            }
+        }
+    }
+    Ok(())
+}
+
+fn ask_for_multiplier(scene: &Scene, joint: usize) -> RunError {
+    let joint = &scene.joints[joint].name;
+    let message =
+        "the initial multiplier cannot be computed: a marker of this joint offers no acceleration";
+    let help = format!("give it: `multiplier = ...` in joint \"{joint}\"");
+    scene
+        .error(&format!("joint.{joint}"), message, Some(help))
+        .into()
+}

@@ -1,0 +1,166 @@
+//! A run from start to end: the macro step, told by one function.
+
+mod initial;
+mod start;
+mod subsystem;
+mod tie;
+
+use std::time::Instant;
+
+pub use subsystem::Subsystem;
+
+use crate::coupling::explicit::Explicit;
+use crate::coupling::layout::Layout;
+use crate::coupling::penalty::Penalty;
+use crate::coupling::semi_implicit::SemiImplicit;
+use crate::error::RunError;
+use crate::results::{Guard, Row, Statistics, Verdict};
+use crate::time::{MacroGrid, MacroStep};
+
+pub use start::{Connect, Options};
+pub(crate) use subsystem::exchange;
+
+/// A running co-simulation.
+pub struct CoSimulation {
+    parts: Parts,
+    scheme: Scheme,
+    grid: MacroGrid,
+    next: usize,
+    row: Row,
+    guard: Guard,
+    statistics: Statistics,
+}
+
+/// What the coupling methods work on.
+pub struct Parts {
+    /// Subsystems in the order of the scene.
+    pub(crate) subsystems: Vec<Subsystem>,
+    /// Joints tied to inputs and outputs.
+    pub(crate) layout: Layout,
+}
+
+/// The coupling method with its state.
+pub(crate) enum Scheme {
+    SemiImplicit(SemiImplicit),
+    Explicit(Explicit),
+    Penalty(Penalty),
+}
+
+/// What a method reports of a macro step.
+pub struct Outcome {
+    /// Verdict on the accepted step.
+    pub verdict: Verdict,
+    /// Time in s that was spent on solving for the multipliers.
+    pub solving: f64,
+}
+
+impl CoSimulation {
+    /// Runs one macro step; `false` if the end was reached before.
+    ///
+    /// The method corrects the multipliers, lets all workers advance and look ahead in one exchange; then the step is
+    /// judged and its row is there to be recorded.
+    pub fn macro_step(&mut self) -> Result<bool, RunError> {
+        let Some(step) = self.grid.step(self.next) else {
+            return Ok(false);
+        };
+        let following = self.grid.step(self.next + 1);
+        let started = Instant::now();
+        let outcome = match &mut self.scheme {
+            Scheme::SemiImplicit(method) => method.macro_step(&mut self.parts, step, following)?,
+            Scheme::Explicit(method) => method.macro_step(&mut self.parts, step)?,
+            Scheme::Penalty(method) => method.macro_step(&mut self.parts, step)?,
+        };
+        self.row
+            .read(step.end, &self.parts, self.scheme.multipliers());
+        self.guard.judge(step, &self.row, &self.parts.layout)?;
+        self.statistics
+            .count(&outcome, started.elapsed(), &self.row);
+        self.next += 1;
+        Ok(true)
+    }
+
+    /// Time of the present macro point.
+    pub fn t(&self) -> f64 {
+        self.grid.point(self.next)
+    }
+
+    /// Number of macro steps done.
+    pub fn steps_done(&self) -> usize {
+        self.next
+    }
+
+    /// The macro-time grid.
+    pub fn grid(&self) -> &MacroGrid {
+        &self.grid
+    }
+
+    /// Everything that is recorded of the present macro point.
+    pub fn row(&self) -> &Row {
+        &self.row
+    }
+
+    /// Counts, times and residuals so far.
+    pub fn statistics(&self) -> Statistics {
+        let mut statistics = self.statistics.clone();
+        for subsystem in &self.parts.subsystems {
+            statistics.add_subsystem(subsystem);
+        }
+        statistics
+    }
+}
+
+impl Parts {
+    /// Makes every subsystem's next request advance over `step`; the signals are filled in by the method.
+    pub(crate) fn prepare_advance(&mut self, step: MacroStep) {
+        for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
+            let advance = subsystem.request.advance.get_or_insert_default();
+            advance.t = step.start;
+            advance.step = step.length;
+            let inputs = self.layout.inputs_of(number).count();
+            advance.signals.resize_with(inputs, Default::default);
+        }
+    }
+
+    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0, once for each driven
+    /// input; subsystems without one have nothing to tell. The signals are filled in by the method.
+    pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {
+        for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
+            let inputs = self.layout.inputs_of(number).count();
+            if inputs == 0 {
+                continue;
+            }
+            let predict = subsystem.request.predict.get_or_insert_default();
+            predict.t = t;
+            predict.step = length;
+            predict.signals.resize_with(inputs, Default::default);
+            predict.perturbed.resize_with(inputs, Default::default);
+        }
+    }
+
+    /// Makes no subsystem look ahead.
+    pub(crate) fn forgo_prediction(&mut self) {
+        for subsystem in &mut self.subsystems {
+            subsystem.request.predict = None;
+        }
+    }
+}
+
+impl Scheme {
+    /// Multipliers at the present macro point.
+    pub(crate) fn multipliers(&self) -> &[f64] {
+        match self {
+            Self::SemiImplicit(method) => method.multipliers(),
+            Self::Explicit(method) => method.multipliers(),
+            Self::Penalty(method) => method.multipliers(),
+        }
+    }
+}
+
+/// The step before the first one: for messages about the start.
+pub(crate) fn at_start(t: f64) -> MacroStep {
+    MacroStep {
+        start: t,
+        length: 0.0,
+        end: t,
+    }
+}

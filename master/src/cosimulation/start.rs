@@ -1,0 +1,235 @@
+//! From a scene to a co-simulation at its first macro point.
+
+use linchpin_proto::contract::CallError;
+use linchpin_proto::v1::{self, value::Kind};
+
+use super::initial::{InitialState, at_rest};
+use super::tie::{mark, model_of, recorded_outputs, refuse_marker};
+use super::{CoSimulation, Parts, Scheme, Subsystem};
+use crate::connection::{Connection, StartError};
+use crate::coupling::condition::{Condition, level_of};
+use crate::coupling::explicit::Explicit;
+use crate::coupling::layout::{Layout, MarkedJoint};
+use crate::coupling::penalty::{Order, Penalty};
+use crate::coupling::semi_implicit::SemiImplicit;
+use crate::error::RunError;
+use crate::results::{Guard, Row, Statistics};
+use crate::scene::{self, Method, Scene};
+use crate::signal::History;
+use crate::time::{MacroGrid, MacroStep};
+
+/// Gives the connection to the worker of a subsystem.
+pub type Connect<'a> =
+    dyn FnMut(&Scene, &scene::Subsystem) -> Result<Box<dyn Connection>, StartError> + 'a;
+
+/// What a study may ask for beyond the scene.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Options {
+    /// Let a diverging run go on, for maps of stability.
+    pub watch_nothing: bool,
+    /// Start from joints that are open: a study of the macro-step map starts from unit states.
+    pub accept_open_joints: bool,
+    /// Multipliers at past macro points in place of a start, newest first; the polynomials then have their full degree
+    /// from the first step on.
+    pub established: Option<Vec<Vec<f64>>>,
+}
+
+impl CoSimulation {
+    /// Connects to all workers, initialises them, closes the joints and looks ahead over the first macro step.
+    pub fn start(
+        scene: &Scene,
+        connect: &mut Connect<'_>,
+        options: &Options,
+    ) -> Result<Self, RunError> {
+        let mut subsystems = connect_all(scene, connect)?;
+        let models = (0..subsystems.len())
+            .map(|number| model_of(scene, number, &subsystems[number]))
+            .collect::<Result<Vec<_>, _>>()?;
+        let joints = mark(scene, &models)?;
+        let layout = layout_of(scene, &joints)?;
+        let recorded = recorded_outputs(scene, &models, &layout.outputs)?;
+        for (number, subsystem) in subsystems.iter_mut().enumerate() {
+            let request =
+                initialize_request(scene, number, &models, &joints, &layout, &recorded[number]);
+            let initialized = subsystem.initialize(request);
+            initialized.map_err(|error| refuse_subsystem(scene, number, error))?;
+        }
+        let mut parts = Parts { subsystems, layout };
+        let is_spring = matches!(
+            scene.coupling.method,
+            Method::Jacobi { .. } | Method::GaussSeidel { .. }
+        );
+        let initial = if is_spring || options.established.is_some() {
+            at_rest(&parts)
+        } else {
+            InitialState::find(scene, &joints, &parts, options.accept_open_joints)?
+        };
+        initial.read_outputs(scene.t_start, &mut parts)?;
+        let grid = MacroGrid::new(scene.t_start, scene.t_end, scene.coupling.macro_step);
+        let scheme = begin(scene, options, initial.multipliers, &mut parts, &grid)?;
+        let mut row = Row::new(&parts);
+        row.read(scene.t_start, &parts, scheme.multipliers());
+        let guard = match &scheme {
+            _ if options.watch_nothing => Guard::off(),
+            Scheme::Penalty(_) => Guard::of_springs(),
+            _ => Guard::of_rigid_joints(),
+        };
+        let names = scene.joints.iter().map(|joint| joint.name.as_str());
+        let statistics = Statistics::new(names, parts.layout.level);
+        Ok(Self {
+            parts,
+            scheme,
+            grid,
+            next: 0,
+            row,
+            guard,
+            statistics,
+        })
+    }
+}
+
+fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem>, RunError> {
+    let connect_one = |subsystem: &scene::Subsystem| {
+        let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
+            subsystem: subsystem.name.clone(),
+            source,
+        })?;
+        Ok(Subsystem::new(&subsystem.name, connection))
+    };
+    scene.subsystems.iter().map(connect_one).collect()
+}
+
+fn layout_of(scene: &Scene, joints: &[MarkedJoint]) -> Result<Layout, RunError> {
+    let method = &scene.coupling.method;
+    let layout = match method {
+        Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
+            Layout::with_springs(joints, scene.subsystems.len())
+        }
+        _ => Layout::new(joints, scene.subsystems.len(), level_of(method)),
+    };
+    layout.map_err(|lacks| refuse_marker(scene, lacks))
+}
+
+fn initialize_request(
+    scene: &Scene,
+    number: usize,
+    models: &[v1::Model],
+    joints: &[MarkedJoint],
+    layout: &Layout,
+    recorded: &[String],
+) -> v1::InitializeRequest {
+    let written = &scene.subsystems[number];
+    let mut parameters = written.parameters.clone();
+    parameters.extend(spring_parameters(&scene.coupling.method, number, joints));
+    v1::InitializeRequest {
+        model: models[number].name.clone(),
+        parameters,
+        solver: written.solver.clone(),
+        t_start: scene.t_start,
+        inputs: layout
+            .inputs_of(number)
+            .map(|input| input.name.clone())
+            .collect(),
+        coupling_outputs: layout.outputs[number].clone(),
+        recorded_outputs: recorded.to_vec(),
+        ..v1::InitializeRequest::default()
+    }
+}
+
+/// Stiffness and damping of the penalty springs that sit in subsystem `number`.
+fn spring_parameters(
+    method: &Method,
+    number: usize,
+    joints: &[MarkedJoint],
+) -> Vec<(String, v1::Value)> {
+    let (Method::Jacobi { stiffness, damping } | Method::GaussSeidel { stiffness, damping }) =
+        method
+    else {
+        return Vec::new();
+    };
+    let ends = joints.iter().map(|joint| &joint.ends[0]);
+    let springs = ends
+        .filter(|(a, _)| *a == number)
+        .filter_map(|(_, marker)| marker.spring.as_ref());
+    springs
+        .flat_map(|spring| [(&spring.stiffness, stiffness), (&spring.damping, damping)])
+        .map(|(name, value)| {
+            (
+                name.clone(),
+                v1::Value {
+                    kind: Some(Kind::Number(*value)),
+                },
+            )
+        })
+        .collect()
+}
+
+fn refuse_subsystem(scene: &Scene, number: usize, error: CallError) -> RunError {
+    let name = &scene.subsystems[number].name;
+    match &error {
+        CallError::Failed(failure) if failure.severity() == v1::Severity::Misuse => {
+            let field = failure.field.as_deref().unwrap_or_default();
+            scene
+                .error(
+                    &format!("subsystem.{name}.{field}"),
+                    failure.message.clone(),
+                    None,
+                )
+                .into()
+        }
+        _ => RunError::Worker {
+            subsystem: name.clone(),
+            t: scene.t_start,
+            step: 0.0,
+            source: error,
+            last_words: String::new(),
+        },
+    }
+}
+
+/// Makes the method of the scene and lets it look ahead over the first macro step.
+fn begin(
+    scene: &Scene,
+    options: &Options,
+    multipliers: Vec<f64>,
+    parts: &mut Parts,
+    grid: &MacroGrid,
+) -> Result<Scheme, RunError> {
+    let coupling = &scene.coupling;
+    let condition = match coupling.method {
+        Method::Baumgarte { beta, gamma, .. } => Condition::Baumgarte { beta, gamma },
+        Method::Weighted { a, b, .. } => Condition::Weighted { a, b },
+        Method::Explicit { mu } => {
+            let mut method = Explicit::new(mu, coupling.increment, multipliers, parts);
+            method.begin(parts, first_step(grid))?;
+            return Ok(Scheme::Explicit(method));
+        }
+        Method::Jacobi { stiffness, damping } => {
+            let order = Order::Jacobi;
+            let degree = coupling.degree;
+            return Ok(Scheme::Penalty(Penalty::new(
+                order, stiffness, damping, degree, parts,
+            )));
+        }
+        Method::GaussSeidel { stiffness, damping } => {
+            let order = Order::GaussSeidel;
+            let degree = coupling.degree;
+            return Ok(Scheme::Penalty(Penalty::new(
+                order, stiffness, damping, degree, parts,
+            )));
+        }
+    };
+    let history = match &options.established {
+        Some(values) => History::established(coupling.degree, coupling.macro_step, values),
+        None => History::new(coupling.degree, &multipliers),
+    };
+    let mut method = SemiImplicit::new(condition, coupling.increment, history, parts);
+    method.begin(parts, first_step(grid))?;
+    Ok(Scheme::SemiImplicit(method))
+}
+
+/// The scene has checked that the time span is at least one step long.
+fn first_step(grid: &MacroGrid) -> MacroStep {
+    grid.step(0)
+        .unwrap_or_else(|| super::at_start(grid.point(0)))
+}

@@ -1,0 +1,279 @@
+//! One subsystem as the master sees it: a connection, the last messages, and outputs at the present macro point.
+
+use std::hash::{BuildHasher, RandomState};
+
+use linchpin_proto::contract::CallError;
+use linchpin_proto::v1;
+use linchpin_proto::version::PROTOCOL;
+
+use crate::connection::Connection;
+use crate::error::RunError;
+use crate::time::MacroStep;
+
+/// A subsystem of a running co-simulation.
+pub struct Subsystem {
+    name: String,
+    connection: Box<dyn Connection>,
+    instance: u64,
+    sequence: u64,
+    /// What the next exchange sends.
+    pub(crate) request: v1::ExchangeRequest,
+    /// What the last exchange brought.
+    pub(crate) reply: v1::ExchangeReply,
+    /// Names of the coupling outputs, then of the recorded outputs.
+    pub(crate) output_names: Vec<String>,
+    /// Number of coupling outputs.
+    pub(crate) coupling_outputs: usize,
+    /// Outputs at the present macro point, in the order of the names.
+    pub(crate) outputs: Vec<f64>,
+    /// Error tolerance of the solver, if it has one.
+    pub(crate) tolerance: Option<f64>,
+    /// What the solver did so far.
+    pub(crate) work: v1::Work,
+    /// Exchanges so far.
+    pub(crate) exchanges: u64,
+}
+
+impl Subsystem {
+    pub(crate) fn new(name: &str, connection: Box<dyn Connection>) -> Self {
+        Self {
+            name: name.to_owned(),
+            connection,
+            // The master chooses the number; a random one does not meet those of other masters.
+            instance: RandomState::new().hash_one(name),
+            sequence: 0,
+            request: v1::ExchangeRequest::default(),
+            reply: v1::ExchangeReply::default(),
+            output_names: Vec::new(),
+            coupling_outputs: 0,
+            outputs: Vec::new(),
+            tolerance: None,
+            work: v1::Work::default(),
+            exchanges: 0,
+        }
+    }
+
+    /// Name in the scene.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Which way the exchange takes.
+    pub fn route(&self) -> &'static str {
+        self.connection.route()
+    }
+
+    pub(crate) fn describe(&self) -> Result<v1::DescribeReply, CallError> {
+        self.connection.contract().describe(&v1::DescribeRequest {
+            protocol: Some(PROTOCOL),
+        })
+    }
+
+    pub(crate) fn initialize(
+        &mut self,
+        mut request: v1::InitializeRequest,
+    ) -> Result<(), CallError> {
+        request.instance = self.instance;
+        request.sequence = self.sequence;
+        request.protocol = Some(PROTOCOL);
+        self.coupling_outputs = request.coupling_outputs.len();
+        self.output_names = [&request.coupling_outputs[..], &request.recorded_outputs].concat();
+        let reply = self.connection.contract().initialize(&request)?;
+        self.tolerance = reply.tolerance;
+        Ok(())
+    }
+
+    /// Outputs `names` at `t` under constant inputs, by a call outside the macro step.
+    pub(crate) fn evaluate(
+        &self,
+        t: f64,
+        inputs: &[f64],
+        names: &[String],
+    ) -> Result<Vec<f64>, RunError> {
+        let signal = |(input, &value): (usize, &f64)| v1::Signal {
+            input: input as u32,
+            nodes: vec![0.0],
+            values: vec![value],
+        };
+        let request = v1::EvaluateRequest {
+            instance: self.instance,
+            t,
+            signals: inputs.iter().enumerate().map(signal).collect(),
+            outputs: names.to_vec(),
+        };
+        let now = MacroStep {
+            start: t,
+            length: 0.0,
+            end: t,
+        };
+        let reply = self
+            .connection
+            .contract()
+            .evaluate(&request)
+            .map_err(|error| self.failed(error, now))?;
+        let values = reply.outputs.unwrap_or_default().values;
+        self.check("outputs", &values, names, now)?;
+        Ok(values)
+    }
+
+    pub(crate) fn post(&mut self, step: MacroStep) -> Result<(), RunError> {
+        self.sequence += 1;
+        self.request.instance = self.instance;
+        self.request.sequence = self.sequence;
+        let posted = self.connection.post(&self.request);
+        posted.map_err(|error| self.failed(error, step))
+    }
+
+    /// Takes the answer and checks that it is complete and finite. `step` is the macro step that is under way.
+    pub(crate) fn collect(&mut self, step: MacroStep) -> Result<(), RunError> {
+        let collected = self.connection.collect(&mut self.reply);
+        collected.map_err(|error| self.failed(error, step))?;
+        self.exchanges += 1;
+        if let Some(work) = self.reply.work {
+            self.work.integrations += work.integrations;
+            self.work.steps += work.steps;
+            self.work.nanoseconds += work.nanoseconds;
+        }
+        self.take_advanced(step)?;
+        self.check_prediction(step)
+    }
+
+    fn take_advanced(&mut self, step: MacroStep) -> Result<(), RunError> {
+        if self.request.advance.is_none() {
+            return Ok(());
+        }
+        let advanced = values(self.reply.advanced.as_ref());
+        self.check("advanced outputs", advanced, &self.output_names, step)?;
+        self.outputs.clear();
+        self.outputs
+            .extend_from_slice(values(self.reply.advanced.as_ref()));
+        Ok(())
+    }
+
+    fn check_prediction(&self, step: MacroStep) -> Result<(), RunError> {
+        let Some(predict) = &self.request.predict else {
+            return Ok(());
+        };
+        let names = &self.output_names[..self.coupling_outputs];
+        self.check("predicted outputs", self.predicted(), names, step)?;
+        let (found, expected) = (self.reply.perturbed.len(), predict.perturbed.len());
+        if found != expected {
+            return Err(self.wrong_count("perturbed steps", found, expected, step));
+        }
+        for perturbed in &self.reply.perturbed {
+            self.check("perturbed outputs", &perturbed.values, names, step)?;
+        }
+        Ok(())
+    }
+
+    /// The signal of driven input `place` in the advance that was prepared.
+    pub(crate) fn advance_signal(&mut self, place: usize) -> &mut v1::Signal {
+        let advance = self.request.advance.get_or_insert_default();
+        signal_of(&mut advance.signals, place)
+    }
+
+    /// The signal of driven input `place` in the prediction that was prepared, and the perturbed one.
+    pub(crate) fn prediction_signals(
+        &mut self,
+        place: usize,
+    ) -> (&mut v1::Signal, &mut v1::Signal) {
+        let predict = self.request.predict.get_or_insert_default();
+        (
+            signal_of(&mut predict.signals, place),
+            signal_of(&mut predict.perturbed, place),
+        )
+    }
+
+    /// Coupling outputs at the present macro point.
+    pub(crate) fn coupling_values(&self) -> &[f64] {
+        &self.outputs[..self.coupling_outputs]
+    }
+
+    /// Coupling outputs of the last prediction.
+    pub(crate) fn predicted(&self) -> &[f64] {
+        values(self.reply.predicted.as_ref())
+    }
+
+    fn check(
+        &self,
+        what: &'static str,
+        values: &[f64],
+        names: &[String],
+        step: MacroStep,
+    ) -> Result<(), RunError> {
+        if values.len() != names.len() {
+            return Err(self.wrong_count(what, values.len(), names.len(), step));
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(place) => Err(RunError::NotFinite {
+                subsystem: self.name.clone(),
+                variable: names[place].clone(),
+                value: values[place],
+                t: step.start,
+                step: step.length,
+            }),
+        }
+    }
+
+    fn wrong_count(
+        &self,
+        what: &'static str,
+        found: usize,
+        expected: usize,
+        step: MacroStep,
+    ) -> RunError {
+        RunError::WrongCount {
+            subsystem: self.name.clone(),
+            what,
+            found,
+            expected,
+            t: step.start,
+        }
+    }
+
+    fn failed(&self, source: CallError, step: MacroStep) -> RunError {
+        let last_words = match source {
+            CallError::Lost { .. } | CallError::Deadline { .. } => self.connection.last_words(),
+            _ => String::new(),
+        };
+        RunError::Worker {
+            subsystem: self.name.clone(),
+            t: step.start,
+            step: step.length,
+            source,
+            last_words,
+        }
+    }
+}
+
+impl Drop for Subsystem {
+    fn drop(&mut self) {
+        let request = v1::TerminateRequest {
+            instance: self.instance,
+        };
+        // A worker that is gone needs no end of its instance.
+        let _ = self.connection.contract().terminate(&request);
+    }
+}
+
+fn signal_of(signals: &mut [v1::Signal], place: usize) -> &mut v1::Signal {
+    let signal = &mut signals[place];
+    signal.input = place as u32;
+    signal
+}
+
+fn values(outputs: Option<&v1::Outputs>) -> &[f64] {
+    outputs.map_or(&[], |outputs| &outputs.values)
+}
+
+/// Sends every subsystem its request, then takes all answers: the workers compute at the same time.
+pub(crate) fn exchange(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
+    for subsystem in &mut *subsystems {
+        subsystem.post(step)?;
+    }
+    for subsystem in subsystems {
+        subsystem.collect(step)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,200 @@
+//! Finds models, markers and outputs that a scene names in what the workers describe.
+
+use linchpin_proto::v1;
+use linchpin_proto::version;
+
+use super::Subsystem;
+use crate::coupling::layout::{Lack, MarkedJoint, MarkerLacks};
+use crate::error::RunError;
+use crate::joint::Level;
+use crate::scene::nearest::nearest;
+use crate::scene::{Joint, Scene, Side};
+
+/// Asks a worker for its models and chooses the one that the scene wants.
+pub(super) fn model_of(
+    scene: &Scene,
+    number: usize,
+    subsystem: &Subsystem,
+) -> Result<v1::Model, RunError> {
+    let written = &scene.subsystems[number];
+    let description = subsystem.describe().map_err(|source| RunError::Worker {
+        subsystem: written.name.clone(),
+        t: scene.t_start,
+        step: 0.0,
+        source,
+        last_words: String::new(),
+    })?;
+    version::negotiate(description.protocol.as_ref()).map_err(|source| RunError::Incompatible {
+        subsystem: written.name.clone(),
+        source,
+    })?;
+    let key = format!("subsystem.{}.model", written.name);
+    let names: Vec<&str> = description
+        .models
+        .iter()
+        .map(|model| model.name.as_str())
+        .collect();
+    let place = match &written.model {
+        Some(name) => names
+            .iter()
+            .position(|known| known == name)
+            .ok_or_else(|| {
+                scene.error(
+                    &key,
+                    format!(
+                        "the worker has no model \"{name}\"; it has: {}",
+                        names.join(", ")
+                    ),
+                    did_you_mean(name, &names),
+                )
+            })?,
+        None if names.len() == 1 => 0,
+        None => {
+            let message = format!(
+                "the worker has {} models: {}",
+                names.len(),
+                names.join(", ")
+            );
+            return Err(scene
+                .error(&key, message, Some("say which with `model = ...`".into()))
+                .into());
+        }
+    };
+    Ok(description.models[place].clone())
+}
+
+/// The markers that the joints of the scene hold.
+pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoint>, RunError> {
+    let mark_one = |joint: &Joint| {
+        let marker = |side: &Side, end: &str| {
+            let key = format!("joint.{}.{end}", joint.name);
+            let marker = marker_of(scene, &key, side, &models[side.subsystem])?;
+            Ok::<_, RunError>((side.subsystem, marker))
+        };
+        let ends = [marker(&joint.a, "a")?, marker(&joint.b, "b")?];
+        Ok(MarkedJoint {
+            name: joint.name.clone(),
+            kind: joint.kind,
+            ends,
+        })
+    };
+    scene.joints.iter().map(mark_one).collect()
+}
+
+fn marker_of(
+    scene: &Scene,
+    key: &str,
+    side: &Side,
+    model: &v1::Model,
+) -> Result<v1::Marker, RunError> {
+    let names: Vec<&str> = model
+        .markers
+        .iter()
+        .map(|marker| marker.name.as_str())
+        .collect();
+    let subsystem = &scene.subsystems[side.subsystem].name;
+    match &side.marker {
+        None if model.markers.len() == 1 => Ok(model.markers[0].clone()),
+        None => {
+            let message = format!(
+                "subsystem \"{subsystem}\" (model \"{}\") has {} markers: {}",
+                model.name,
+                names.len(),
+                names.join(", ")
+            );
+            let help = format!("write \"{subsystem}.MARKER\"");
+            Err(scene.error(key, message, Some(help)).into())
+        }
+        Some(name) => {
+            let found = model.markers.iter().find(|marker| &marker.name == name);
+            found.cloned().ok_or_else(|| {
+                let message = format!(
+                    "model \"{}\" has no marker \"{name}\"; it has: {}",
+                    model.name,
+                    names.join(", ")
+                );
+                scene.error(key, message, did_you_mean(name, &names)).into()
+            })
+        }
+    }
+}
+
+/// The error for a marker that cannot take part in a joint.
+pub(super) fn refuse_marker(scene: &Scene, lacks: MarkerLacks) -> RunError {
+    let joint = &scene.joints[lacks.joint];
+    let (side, end) = if lacks.end == 0 {
+        (&joint.a, "a")
+    } else {
+        (&joint.b, "b")
+    };
+    let subsystem = &scene.subsystems[side.subsystem].name;
+    let (what, help) = match lacks.what {
+        Lack::Output(Level::Acceleration) => (
+            "the acceleration that an index-1 or explicit coupling needs",
+            "choose coupling.index = 2 or 3",
+        ),
+        Lack::Output(Level::Velocity) => (
+            "the velocity that the coupling needs",
+            "choose coupling.index = 3",
+        ),
+        Lack::Output(Level::Position) => ("a position", "the worker must describe one"),
+        Lack::Spring => (
+            "a spring-damper to a partner, which jacobi and gauss-seidel need at end a",
+            "exchange the ends of the joint, or choose a rigid coupling method",
+        ),
+    };
+    let message = format!("the marker of subsystem \"{subsystem}\" does not offer {what}");
+    scene
+        .error(
+            &format!("joint.{}.{end}", joint.name),
+            message,
+            Some(help.into()),
+        )
+        .into()
+}
+
+/// The outputs to record of each subsystem beyond `coupling`, as `output.variables` lists them.
+pub(super) fn recorded_outputs(
+    scene: &Scene,
+    models: &[v1::Model],
+    coupling: &[Vec<String>],
+) -> Result<Vec<Vec<String>>, RunError> {
+    let mut recorded = vec![Vec::new(); models.len()];
+    for variable in scene.output.variables.iter().flatten() {
+        let refuse = |message: String, help| scene.error("output.variables", message, help);
+        let Some((subsystem, output)) = variable.split_once('.') else {
+            let message = format!("\"{variable}\" is not SUBSYSTEM.OUTPUT");
+            return Err(refuse(message, None).into());
+        };
+        let names: Vec<&str> = scene.subsystems.iter().map(|s| s.name.as_str()).collect();
+        let number = names
+            .iter()
+            .position(|name| *name == subsystem)
+            .ok_or_else(|| {
+                let message = format!("\"{variable}\": there is no subsystem \"{subsystem}\"");
+                refuse(message, did_you_mean(subsystem, &names))
+            })?;
+        let outputs: Vec<&str> = models[number]
+            .outputs
+            .iter()
+            .map(|output| output.name.as_str())
+            .collect();
+        if !outputs.contains(&output) {
+            let message = format!(
+                "\"{variable}\": model \"{}\" has no output \"{output}\"; it has: {}",
+                models[number].name,
+                outputs.join(", ")
+            );
+            return Err(refuse(message, did_you_mean(output, &outputs)).into());
+        }
+        let output = output.to_owned();
+        if !coupling[number].contains(&output) && !recorded[number].contains(&output) {
+            recorded[number].push(output);
+        }
+    }
+    Ok(recorded)
+}
+
+fn did_you_mean(name: &str, known: &[&str]) -> Option<String> {
+    nearest(name, known.iter().copied()).map(|near| format!("did you mean \"{near}\"?"))
+}

@@ -1,0 +1,118 @@
+//! How the levels of the coupling conditions are put together to one equation for the multipliers.
+
+use super::solve::{LinearSolver, SingularColumn};
+use super::system::System;
+use crate::cosimulation::Parts;
+use crate::error::RunError;
+use crate::joint::Level;
+use crate::scene::{Index, Method};
+use crate::time::MacroStep;
+
+/// The equation that the corrected multipliers solve, linearised about the prediction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Condition {
+    /// `g + beta g' + gamma g'' = 0` (S1 eqs. 15, 68).
+    Baumgarte {
+        /// s
+        beta: f64,
+        /// s^2
+        gamma: f64,
+    },
+    /// Weighted mean of the multipliers that solve `g = 0`, `g' = 0` and `g'' = 0` (S1 eqs. 23, 76).
+    Weighted {
+        /// Weight of the velocity level.
+        a: f64,
+        /// Weight of the acceleration level.
+        b: f64,
+    },
+}
+
+/// No unique solution for the multiplier of this row, on this level.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SingularRow {
+    /// Row, which is the number of the joint.
+    pub row: usize,
+    /// Level of the conditions; the highest for a sum of levels.
+    pub level: Level,
+}
+
+impl SingularRow {
+    /// The error of a run that met it in `step`.
+    pub fn in_step(self, parts: &Parts, step: MacroStep) -> RunError {
+        RunError::Singular {
+            joint: parts.layout.joints[self.row].name.clone(),
+            level: self.level.name(),
+            t: step.start,
+            step: step.length,
+        }
+    }
+}
+
+/// Refuses multipliers that have grown out of the range of numbers.
+pub fn check_finite(multipliers: &[f64], parts: &Parts, step: MacroStep) -> Result<(), RunError> {
+    match multipliers
+        .iter()
+        .position(|multiplier| !multiplier.is_finite())
+    {
+        None => Ok(()),
+        Some(row) => Err(RunError::Grown {
+            t: step.end,
+            step: step.length,
+            variable: format!("{}.lambda", parts.layout.joints[row].name),
+            value: multipliers[row],
+            growth: f64::MAX,
+        }),
+    }
+}
+
+/// Highest level that the conditions of a method need.
+pub fn level_of(method: &Method) -> Level {
+    match method {
+        Method::Baumgarte { index, .. } | Method::Weighted { index, .. } => match index {
+            Index::Three => Level::Position,
+            Index::Two => Level::Velocity,
+            Index::One => Level::Acceleration,
+        },
+        Method::Explicit { .. } => Level::Acceleration,
+        Method::Jacobi { .. } | Method::GaussSeidel { .. } => Level::Velocity,
+    }
+}
+
+impl Condition {
+    /// Solves the linearised condition for the change of the multipliers from their prediction.
+    pub fn solve(
+        &self,
+        system: &mut System,
+        solver: &mut LinearSolver,
+        change: &mut [f64],
+    ) -> Result<(), SingularRow> {
+        match *self {
+            Self::Baumgarte { beta, gamma } => {
+                system.combine([1.0, beta, gamma]);
+                for (change, g) in change.iter_mut().zip(system.combined_residual()) {
+                    *change = -g;
+                }
+                solver
+                    .solve(system.combined_jacobian(), change)
+                    .map_err(|SingularColumn(row)| SingularRow {
+                        row,
+                        level: system.level(),
+                    })
+            }
+            Self::Weighted { a, b } => {
+                change.fill(0.0);
+                for (&level, weight) in system.level().up_to().iter().zip([1.0, a, b]) {
+                    let share = weight / (1.0 + a + b);
+                    let (jacobian, own) = system.level_equation(level);
+                    solver
+                        .solve(jacobian, own)
+                        .map_err(|SingularColumn(row)| SingularRow { row, level })?;
+                    for (change, own) in change.iter_mut().zip(own) {
+                        *change += share * *own;
+                    }
+                }
+                Ok(())
+            }
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! The coupling of the whole scene: conditions, Jacobian, and the methods that solve for the multipliers.
+//!
+//! * [`layout`]: which outputs the joints read and which inputs they load;
+//! * [`system`]: `g` and `G = dg/dw` on every level, assembled from the joints and the workers' columns;
+//! * [`solve`]: the linear solver;
+//! * [`columns`]: increments and finite differences;
+//! * [`semi_implicit`], [`explicit`], [`penalty`]: one macro step of each family of methods.
+
+pub mod columns;
+pub mod condition;
+pub mod explicit;
+pub mod layout;
+pub mod penalty;
+pub mod semi_implicit;
+pub mod solve;
+pub mod system;

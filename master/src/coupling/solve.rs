@@ -1,0 +1,108 @@
+//! The linear solver of the coupling system.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::{Mat, Par};
+
+/// LU decomposition with partial pivoting of an `n x n` matrix, in memory that is kept from step to step.
+pub struct LinearSolver {
+    matrix: Mat<f64>,
+    rhs: Mat<f64>,
+    permutation: Vec<usize>,
+    inverse: Vec<usize>,
+    memory: MemBuffer,
+}
+
+/// No unique solution: elimination found no pivot in this column.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SingularColumn(pub usize);
+
+/// A pivot below this share of the largest entry of its column is rounding.
+const PIVOT_ROUNDING: f64 = 1e-14;
+
+impl LinearSolver {
+    /// A solver for `n` unknowns.
+    pub fn new(n: usize) -> Self {
+        let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
+        let solve = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
+        Self {
+            matrix: Mat::zeros(n, n),
+            rhs: Mat::zeros(n, 1),
+            permutation: vec![0; n],
+            inverse: vec![0; n],
+            memory: MemBuffer::new(factor.or(solve)),
+        }
+    }
+
+    /// Solves `matrix x = rhs` and writes `x` over `rhs`.
+    pub fn solve(&mut self, matrix: &Mat<f64>, rhs: &mut [f64]) -> Result<(), SingularColumn> {
+        let n = rhs.len();
+        self.matrix.copy_from(matrix);
+        for (row, value) in rhs.iter().enumerate() {
+            self.rhs[(row, 0)] = *value;
+        }
+        let (_, permutation) = factor::lu_in_place(
+            self.matrix.as_mut(),
+            &mut self.permutation,
+            &mut self.inverse,
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+            Default::default(),
+        );
+        for column in 0..n {
+            let largest = (0..n)
+                .map(|row| matrix[(row, column)].abs())
+                .fold(0.0, f64::max);
+            let pivot = self.matrix[(column, column)].abs();
+            // Written so that a pivot that is not a number counts as none.
+            if !(pivot > PIVOT_ROUNDING * largest) {
+                return Err(SingularColumn(column));
+            }
+        }
+        solve::solve_in_place(
+            self.matrix.as_ref(),
+            self.matrix.as_ref(),
+            permutation,
+            self.rhs.as_mut(),
+            Par::Seq,
+            MemStack::new(&mut self.memory),
+        );
+        for (row, value) in rhs.iter_mut().enumerate() {
+            *value = self.rhs[(row, 0)];
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_a_system_that_needs_pivoting() {
+        let matrix = faer::mat![[0.0, 2.0, 1.0], [1e-3, -1.0, 0.5], [4.0, 0.0, 3.0]];
+        let x = [0.3, -2.0, 7.0];
+        let mut rhs: Vec<f64> = (0..3)
+            .map(|i| (0..3).map(|j| matrix[(i, j)] * x[j]).sum())
+            .collect();
+        LinearSolver::new(3).solve(&matrix, &mut rhs).unwrap();
+        for (found, expected) in rhs.iter().zip(x) {
+            assert!((found - expected).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_redundant_column_is_named() {
+        let matrix = faer::mat![[1.0, 2.0], [2.0, 4.0]];
+        let mut rhs = [1.0, 2.0];
+        assert_eq!(
+            LinearSolver::new(2).solve(&matrix, &mut rhs),
+            Err(SingularColumn(1))
+        );
+        let nothing = faer::mat![[0.0]];
+        assert_eq!(
+            LinearSolver::new(1).solve(&nothing, &mut [1.0]),
+            Err(SingularColumn(0))
+        );
+    }
+}

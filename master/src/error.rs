@@ -1,0 +1,140 @@
+//! Why a run ends without a result.
+
+use linchpin_proto::contract::CallError;
+use linchpin_proto::version::Incompatible;
+
+use crate::connection::StartError;
+use crate::scene::SceneErrors;
+
+/// Why a run could not start or had to stop.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The scene is wrong; some mistakes show only when the workers are asked.
+    #[error(transparent)]
+    Scene(#[from] SceneErrors),
+    /// A worker could not be started or reached.
+    #[error("subsystem \"{subsystem}\": {source}")]
+    Start {
+        /// Name in the scene.
+        subsystem: String,
+        /// Why.
+        source: StartError,
+    },
+    /// A worker speaks another protocol.
+    #[error("subsystem \"{subsystem}\": {source}")]
+    Incompatible {
+        /// Name in the scene.
+        subsystem: String,
+        /// Both versions.
+        source: Incompatible,
+    },
+    /// A call to a worker failed.
+    #[error("subsystem \"{subsystem}\" at t = {t} s (H = {step} s): {source}{}", quoted(.last_words))]
+    Worker {
+        /// Name in the scene.
+        subsystem: String,
+        /// Start of the macro step.
+        t: f64,
+        /// Its length; 0 before the first step.
+        step: f64,
+        /// What the call said.
+        source: CallError,
+        /// Last lines of the worker's error output, if known.
+        last_words: String,
+    },
+    /// A worker sent a number that is none.
+    #[error(
+        "subsystem \"{subsystem}\" sent {value} for output \"{variable}\" in the macro step from t = {t} s \
+         (H = {step} s); the solver has probably diverged: try a smaller coupling.macro_step or tighter solver tolerances"
+    )]
+    NotFinite {
+        /// Name in the scene.
+        subsystem: String,
+        /// Output of the model.
+        variable: String,
+        /// Infinite or NaN.
+        value: f64,
+        /// Start of the macro step.
+        t: f64,
+        /// Its length.
+        step: f64,
+    },
+    /// A worker breaks the contract.
+    #[error(
+        "subsystem \"{subsystem}\" answered with {found} {what} instead of {expected} in the macro step from t = {t} s; \
+         the worker does not keep to the contract linchpin.v1"
+    )]
+    WrongCount {
+        /// Name in the scene.
+        subsystem: String,
+        /// What was counted.
+        what: &'static str,
+        /// Number that came.
+        found: usize,
+        /// Number that was due.
+        expected: usize,
+        /// Start of the macro step.
+        t: f64,
+    },
+    /// The coupling has come apart.
+    #[error(
+        "the run diverged at t = {t} s (H = {step} s): joint \"{joint}\" is open by {opening:e}, the largest motion so \
+         far is {motion:e}; try a smaller coupling.macro_step, a lower coupling.degree, or larger damping of the \
+         constraint (baumgarte: beta = \"2H\", gamma = \"H^2\"; weighted: a = 2, b = 2.6)"
+    )]
+    Diverged {
+        /// End of the macro step.
+        t: f64,
+        /// Its length.
+        step: f64,
+        /// Name in the scene.
+        joint: String,
+        /// `|g|` on position level.
+        opening: f64,
+        /// Largest position of a marker so far.
+        motion: f64,
+    },
+    /// A value has grown beyond all measure.
+    #[error(
+        "the run diverged at t = {t} s (H = {step} s): {variable} = {value:e} has grown by more than {growth:e} since \
+         the first steps; try a smaller coupling.macro_step, or a softer coupling.stiffness if the method has one"
+    )]
+    Grown {
+        /// End of the macro step.
+        t: f64,
+        /// Its length.
+        step: f64,
+        /// Name of the result column.
+        variable: String,
+        /// Its value.
+        value: f64,
+        /// Factor that was passed.
+        growth: f64,
+    },
+    /// The coupling conditions do not determine the multipliers.
+    #[error(
+        "the multiplier of joint \"{joint}\" is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \
+         singular on {level} level; a joint is redundant, a coupled body does not react to its load, or H meets half a \
+         period of a subsystem (aliasing): change coupling.macro_step or the joints"
+    )]
+    Singular {
+        /// First joint without a pivot.
+        joint: String,
+        /// Level of the conditions.
+        level: &'static str,
+        /// Start of the macro step.
+        t: f64,
+        /// Its length.
+        step: f64,
+    },
+}
+
+fn quoted(words: &str) -> String {
+    if words.is_empty() {
+        return String::new();
+    }
+    format!(
+        "\n  last error output of the worker:\n    {}",
+        words.replace('\n', "\n    ")
+    )
+}

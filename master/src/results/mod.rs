@@ -1,0 +1,11 @@
+//! What a run tells: rows, residuals, verdicts, statistics.
+
+mod guard;
+mod row;
+mod statistics;
+mod verdict;
+
+pub use guard::Guard;
+pub use row::Row;
+pub use statistics::{JointResiduals, Statistics, SubsystemStatistics};
+pub use verdict::{Defect, Verdict};

@@ -1,0 +1,101 @@
+//! The values at one macro point.
+
+use crate::cosimulation::Parts;
+use crate::coupling::system::motion_of;
+use crate::joint::Level;
+
+/// Time, outputs, multipliers and residuals at one macro point, in the order of the result columns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    columns: Vec<String>,
+    values: Vec<f64>,
+    first_outputs: Vec<usize>,
+    first_multiplier: usize,
+    first_residual: usize,
+    levels: usize,
+}
+
+impl Row {
+    pub(crate) fn new(parts: &Parts) -> Self {
+        let mut columns = vec!["t".to_owned()];
+        let mut first_outputs = Vec::new();
+        for subsystem in &parts.subsystems {
+            first_outputs.push(columns.len());
+            let names = subsystem.output_names.iter();
+            columns.extend(names.map(|output| format!("{}.{output}", subsystem.name())));
+        }
+        let first_multiplier = columns.len();
+        let joints = &parts.layout.joints;
+        columns.extend(joints.iter().map(|joint| format!("{}.lambda", joint.name)));
+        let first_residual = columns.len();
+        let levels = parts.layout.level.up_to();
+        for joint in joints {
+            let residual = |level: &Level| format!("{}.residual.{}", joint.name, level.name());
+            columns.extend(levels.iter().map(residual));
+        }
+        Self {
+            values: vec![0.0; columns.len()],
+            columns,
+            first_outputs,
+            first_multiplier,
+            first_residual,
+            levels: levels.len(),
+        }
+    }
+
+    pub(crate) fn read(&mut self, t: f64, parts: &Parts, multipliers: &[f64]) {
+        self.values.clear();
+        self.values.push(t);
+        for subsystem in &parts.subsystems {
+            self.values.extend_from_slice(&subsystem.outputs);
+        }
+        self.values.extend_from_slice(multipliers);
+        for (number, joint) in parts.layout.joints.iter().enumerate() {
+            let motion = motion_of(&parts.layout, number, |s| {
+                parts.subsystems[s].coupling_values()
+            });
+            let levels = parts.layout.level.up_to().iter();
+            self.values
+                .extend(levels.map(|&level| joint.law.condition(level, &motion)));
+        }
+    }
+
+    /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`.
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The values, column by column.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Value of a column.
+    pub fn get(&self, column: &str) -> Option<f64> {
+        let place = self.columns.iter().position(|name| name == column)?;
+        self.values.get(place).copied()
+    }
+
+    /// Columns and values of outputs and multipliers: what may grow.
+    pub(crate) fn states(&self) -> impl Iterator<Item = (&str, f64)> {
+        let names = self.columns[1..self.first_residual]
+            .iter()
+            .map(String::as_str);
+        names.zip(self.values[1..self.first_residual].iter().copied())
+    }
+
+    /// Output number `output` of a subsystem.
+    pub(crate) fn output(&self, subsystem: usize, output: usize) -> f64 {
+        self.values[self.first_outputs[subsystem] + output]
+    }
+
+    /// Residuals of joint number `joint`, one for each level.
+    pub(crate) fn residuals(&self, joint: usize) -> &[f64] {
+        &self.values[self.first_residual + joint * self.levels..][..self.levels]
+    }
+
+    /// Number of joints.
+    pub(crate) fn joints(&self) -> usize {
+        self.first_residual - self.first_multiplier
+    }
+}

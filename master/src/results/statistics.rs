@@ -1,0 +1,125 @@
+//! Counts, times and residuals of a run.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::{Row, Verdict};
+use crate::cosimulation::{Outcome, Subsystem};
+use crate::joint::Level;
+
+/// What a run cost and how well its joints held.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct Statistics {
+    /// Macro steps done.
+    pub macro_steps: u64,
+    /// Messages from the master to workers, each with one answer.
+    pub exchanges: u64,
+    /// Integrations over a macro step, predicted, perturbed and corrected ones together.
+    pub integrations: u64,
+    /// Internal steps of the solvers.
+    pub solver_steps: u64,
+    /// Time in s of all macro steps in the master.
+    pub time_total: f64,
+    /// Of it: assembling and solving for the multipliers, in s.
+    pub time_solving: f64,
+    /// Time in s that the workers spent in their solvers, added up over all workers.
+    pub time_in_solvers: f64,
+    /// Steps by verdict.
+    pub verdicts: Verdicts,
+    /// Largest residuals of every joint.
+    pub joints: Vec<JointResiduals>,
+    /// The share of every subsystem.
+    pub subsystems: Vec<SubsystemStatistics>,
+}
+
+/// Number of macro steps by verdict.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Verdicts {
+    /// [`Verdict::Uncorrected`]
+    pub uncorrected: u64,
+    /// [`Verdict::Good`]
+    pub good: u64,
+    /// [`Verdict::Fair`]
+    pub fair: u64,
+    /// [`Verdict::Poor`]
+    pub poor: u64,
+}
+
+/// Largest residual of a joint over the run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct JointResiduals {
+    /// Name in the scene.
+    pub joint: String,
+    /// Level of the condition.
+    pub level: &'static str,
+    /// Largest absolute value.
+    pub largest: f64,
+}
+
+/// What one subsystem did.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SubsystemStatistics {
+    /// Name in the scene.
+    pub subsystem: String,
+    /// Which way the exchange took.
+    pub route: &'static str,
+    /// Exchanges with its worker.
+    pub exchanges: u64,
+    /// Integrations over a macro step.
+    pub integrations: u64,
+    /// Internal steps of its solver.
+    pub solver_steps: u64,
+    /// Time in its solver in s.
+    pub time_in_solver: f64,
+}
+
+impl Statistics {
+    /// Nothing done yet; `joints` by name, with residuals up to `level`.
+    pub(crate) fn new<'a>(joints: impl Iterator<Item = &'a str>, level: Level) -> Self {
+        let mut statistics = Self::default();
+        for joint in joints {
+            let levels = level.up_to().iter();
+            statistics.joints.extend(levels.map(|level| JointResiduals {
+                joint: joint.to_owned(),
+                level: level.name(),
+                largest: 0.0,
+            }));
+        }
+        statistics
+    }
+
+    pub(crate) fn count(&mut self, outcome: &Outcome, time: Duration, row: &Row) {
+        self.macro_steps += 1;
+        self.time_total += time.as_secs_f64();
+        self.time_solving += outcome.solving;
+        let verdicts = &mut self.verdicts;
+        *match outcome.verdict {
+            Verdict::Uncorrected => &mut verdicts.uncorrected,
+            Verdict::Good => &mut verdicts.good,
+            Verdict::Fair => &mut verdicts.fair,
+            Verdict::Poor => &mut verdicts.poor,
+        } += 1;
+        let residuals = (0..row.joints()).flat_map(|joint| row.residuals(joint));
+        for (joint, residual) in self.joints.iter_mut().zip(residuals) {
+            joint.largest = joint.largest.max(residual.abs());
+        }
+    }
+
+    pub(crate) fn add_subsystem(&mut self, subsystem: &Subsystem) {
+        let work = &subsystem.work;
+        let own = SubsystemStatistics {
+            subsystem: subsystem.name().to_owned(),
+            route: subsystem.route(),
+            exchanges: subsystem.exchanges,
+            integrations: work.integrations,
+            solver_steps: work.steps,
+            time_in_solver: work.nanoseconds as f64 * 1e-9,
+        };
+        self.exchanges += own.exchanges;
+        self.integrations += own.integrations;
+        self.solver_steps += own.solver_steps;
+        self.time_in_solvers += own.time_in_solver;
+        self.subsystems.push(own);
+    }
+}
