@@ -1,4 +1,5 @@
 //! Tests of the scene: the example as it is, mistakes in it, overrides, stability rules, arbitrary text.
+#![allow(clippy::unwrap_used)]
 
 mod coupling_mistakes;
 mod mistakes;
