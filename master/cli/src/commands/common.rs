@@ -1,0 +1,90 @@
+//! Arguments that several commands share.
+
+use std::fs;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+
+use linchpin_master::scene::{self, Override, Scene, warnings};
+
+use super::CommandError;
+
+/// A scene with changes.
+#[derive(Debug, Clone, clap::Args)]
+pub struct SceneArguments {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+
+    /// Change a setting of the scene, e.g. coupling.macro_step=5e-4 or subsystem.*.parameters.c=1e4
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub set: Vec<Override>,
+}
+
+impl SceneArguments {
+    /// Reads the scene; warnings about known instabilities go to the error output.
+    pub fn load(&self) -> Result<Scene, CommandError> {
+        let scene = scene::load(&self.scene, &self.set)?;
+        for warning in warnings(&scene) {
+            eprintln!("warning: {warning}");
+        }
+        Ok(scene)
+    }
+}
+
+/// Where results go.
+#[derive(Debug, Clone, clap::Args)]
+pub struct OutputArguments {
+    /// Folder for the results; made if it does not exist [default: out/NAME OF THE SCENE]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+
+    /// No progress bar and no summary
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+impl OutputArguments {
+    /// Makes the folder and tries whether files can be written there, before any work is done.
+    pub fn prepare(&self, scene: &Scene) -> Result<PathBuf, CommandError> {
+        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+        prepare_folder(&folder)?;
+        Ok(folder)
+    }
+
+    /// Whether a progress bar may be shown.
+    pub fn shows_progress(&self) -> bool {
+        !self.quiet && std::io::stderr().is_terminal()
+    }
+}
+
+/// Makes a folder that files can be written to.
+pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
+    let unwritable =
+        |source| CommandError::Unwritable { path: folder.to_owned(), source };
+    fs::create_dir_all(folder).map_err(unwritable)?;
+    let trial = folder.join(".linchpin-trial");
+    fs::write(&trial, "").and_then(|()| fs::remove_file(&trial)).map_err(unwritable)
+}
+
+/// A name that can be part of a path: letters, digits, `-`, `_` and `.` stay, runs of anything else become one `-`.
+pub fn file_name(name: &str) -> String {
+    let mut safe = String::with_capacity(name.len());
+    for character in name.chars() {
+        if character.is_alphanumeric() || matches!(character, '-' | '_' | '.') {
+            safe.push(character);
+        } else if !safe.ends_with('-') {
+            safe.push('-');
+        }
+    }
+    safe.trim_matches(['-', '.']).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_name;
+
+    #[test]
+    fn names_become_parts_of_paths() {
+        assert_eq!(file_name("index 1, k = 0"), "index-1-k-0");
+        assert_eq!(file_name("../../etc"), "etc");
+    }
+}

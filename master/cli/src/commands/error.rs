@@ -1,0 +1,111 @@
+//! Why a command failed, and how it ends the process.
+
+use std::path::PathBuf;
+
+use linchpin_master::RunError;
+use linchpin_master::connection::StartError;
+use linchpin_master::scene::SceneErrors;
+use linchpin_proto::version::Incompatible;
+use linchpin_worker::server::{ListenError, ServeError};
+
+use crate::plot::PlotError;
+use crate::simulate::SimulateError;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum CommandError {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneErrors),
+    /// The run stopped.
+    #[error(transparent)]
+    Run(RunError),
+    /// A case of the scene stopped.
+    #[error("case \"{case}\": {source}")]
+    Case {
+        /// Name of the case.
+        case: String,
+        /// Why.
+        source: RunError,
+    },
+    /// A folder or file cannot be written.
+    #[error("cannot write to {}: {source}; choose another folder with --out", path.display())]
+    Unwritable {
+        /// The path.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// A table cannot be written or read back.
+    #[error("{}: {source}", path.display())]
+    Table {
+        /// The path.
+        path: PathBuf,
+        /// Why.
+        source: csv::Error,
+    },
+    /// A picture cannot be drawn.
+    #[error(transparent)]
+    Plot(#[from] PlotError),
+    /// No worker at an address.
+    #[error("{address}: {source}")]
+    Start {
+        /// The address.
+        address: String,
+        /// Why.
+        source: StartError,
+    },
+    /// The worker speaks another protocol.
+    #[error("{address}: {source}")]
+    Incompatible {
+        /// The address.
+        address: String,
+        /// Both versions.
+        source: Incompatible,
+    },
+    /// A worker cannot listen.
+    #[error(transparent)]
+    Listen(#[from] ListenError),
+    /// A worker stopped.
+    #[error(transparent)]
+    Serve(#[from] ServeError),
+    /// The system gave no runtime.
+    #[error("cannot start: {0}")]
+    System(#[from] std::io::Error),
+}
+
+impl CommandError {
+    /// Exit code: 2 for mistakes that a check of the scene finds, 1 for everything that happens later.
+    pub fn exit_code(&self) -> u8 {
+        match self {
+            Self::Scene(_) | Self::Run(RunError::Scene(_)) => 2,
+            _ => 1,
+        }
+    }
+
+    /// The mistakes in the scene, if it is these.
+    pub fn scene_errors(&self) -> Option<&SceneErrors> {
+        match self {
+            Self::Scene(errors) | Self::Run(RunError::Scene(errors)) => Some(errors),
+            _ => None,
+        }
+    }
+
+    /// What ended a simulation.
+    pub fn from_simulation(error: SimulateError<Self>) -> Self {
+        match error {
+            SimulateError::Run(error) => Self::Run(error),
+            SimulateError::Record(error) => error,
+        }
+    }
+
+    /// Says which case an error belongs to.
+    pub fn in_case(self, case: &str) -> Self {
+        match self {
+            Self::Run(source) if !matches!(source, RunError::Scene(_)) => {
+                Self::Case { case: case.to_owned(), source }
+            }
+            other => other,
+        }
+    }
+}
