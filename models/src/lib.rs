@@ -2,7 +2,7 @@
 //!
 //! * [`oscillator`]: one mass on a spring and a damper;
 //! * [`integrators`]: time integration that several models share;
-//! * [`reference`]: closed forms that coupled runs are compared with.
+//! * [`mod@reference`]: closed forms that coupled runs are compared with.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 

@@ -93,7 +93,7 @@ impl Stages {
             self.iterate(ode, attempt)?;
             let correction = self.correction(goal);
             let rate = correction / last;
-            if !(rate < 1.0) {
+            if rate.is_nan() || rate >= 1.0 {
                 return Err(Diverged);
             }
             let left = correction * rate / (1.0 - rate);
