@@ -7,8 +7,8 @@
 //! The power series of the solution is summed on a part of the step that is short enough to converge at once; the
 //! part is then doubled until it is the whole. It is the *increment* of the state that is doubled, not the state: a
 //! heavily damped oscillator creeps by a tiny part of its position in every part of the step, and `1 + tiny` would
-//! lose it. (Measured: nalgebra's `exp` of the augmented matrix loses four figures at `delta` = 6e5, and takes five to ten
-//! times as long.)
+//! lose it. (Measured: nalgebra's `exp` of the augmented matrix loses four figures at `delta` = 6e5, and takes five
+//! to ten times as long.)
 
 use linchpin_proto::polynomial::MAX_NODES;
 
