@@ -5,6 +5,7 @@ mod service;
 
 use std::future::Future;
 use std::sync::Arc;
+use std::time::Duration;
 
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{FILE_DESCRIPTOR_SET, worker_server::WorkerServer};
@@ -17,6 +18,9 @@ use service::Service;
 
 /// Largest message that is accepted, in bytes.
 pub const MESSAGE_LIMIT: usize = 16 << 20;
+
+/// Time that calls under way have to finish after a shutdown.
+pub const GRACE: Duration = Duration::from_secs(2);
 
 /// Who may reach a worker that has no encryption.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,7 +122,7 @@ impl Server {
         &self.address
     }
 
-    /// Answers calls until `shutdown` completes; calls under way are finished.
+    /// Answers calls until `shutdown` completes; calls under way may take [`GRACE`] to finish.
     pub async fn serve(self, shutdown: impl Future<Output = ()>) -> Result<(), ServeError> {
         let (health, health_service) = tonic_health::server::health_reporter();
         health.set_serving::<WorkerServer<Service>>().await;
@@ -130,7 +134,16 @@ impl Server {
                     .max_decoding_message_size(MESSAGE_LIMIT)
                     .max_encoding_message_size(MESSAGE_LIMIT),
             );
-        let served = run(router, self.listener, shutdown).await;
+        let (stop, stopped) = tokio::sync::oneshot::channel();
+        let shutdown = async move {
+            shutdown.await;
+            // Nobody listens if serving has ended by itself.
+            let _ = stop.send(());
+        };
+        let served = tokio::select! {
+            served = run(router, self.listener, shutdown) => served,
+            () = overdue(stopped) => Ok(()),
+        };
         if let Address::Unix(path) = &self.address {
             // A file that is gone already is what we want.
             let _ = std::fs::remove_file(path);
@@ -139,6 +152,15 @@ impl Server {
             address: self.address,
             source,
         })
+    }
+}
+
+/// Completes when the calls under way have had their time since the shutdown. An exchange stream that its master
+/// keeps open would otherwise keep the worker alive.
+async fn overdue(stopped: tokio::sync::oneshot::Receiver<()>) {
+    match stopped.await {
+        Ok(()) => tokio::time::sleep(GRACE).await,
+        Err(_) => std::future::pending().await,
     }
 }
 

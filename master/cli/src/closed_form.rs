@@ -31,14 +31,29 @@ pub enum Quantity {
 impl ClosedForm {
     /// The closed form of `scene`, if all its subsystems are built-in oscillators that the joints link to a tree.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let masses = scene.subsystems.iter().map(parameters).collect::<Option<Vec<_>>>()?;
-        let links: Vec<_> =
-            scene.joints.iter().map(|joint| (joint.a.subsystem, joint.b.subsystem)).collect();
+        let masses = scene
+            .subsystems
+            .iter()
+            .map(parameters)
+            .collect::<Option<Vec<_>>>()?;
+        let links: Vec<_> = scene
+            .joints
+            .iter()
+            .map(|joint| (joint.a.subsystem, joint.b.subsystem))
+            .collect();
         Some(Self {
             solution: LinkedOscillators::new(&masses, &links).ok()?,
             t_start: scene.t_start,
-            subsystems: scene.subsystems.iter().map(|subsystem| subsystem.name.clone()).collect(),
-            joints: scene.joints.iter().map(|joint| joint.name.clone()).collect(),
+            subsystems: scene
+                .subsystems
+                .iter()
+                .map(|subsystem| subsystem.name.clone())
+                .collect(),
+            joints: scene
+                .joints
+                .iter()
+                .map(|joint| joint.name.clone())
+                .collect(),
         })
     }
 
@@ -46,7 +61,11 @@ impl ClosedForm {
     pub fn quantity(&self, column: &str) -> Option<Quantity> {
         let (owner, variable) = column.split_once('.')?;
         if variable == "lambda" {
-            return self.joints.iter().position(|joint| joint == owner).map(Quantity::Multiplier);
+            return self
+                .joints
+                .iter()
+                .position(|joint| joint == owner)
+                .map(Quantity::Multiplier);
         }
         if !self.subsystems.iter().any(|subsystem| subsystem == owner) {
             return None;
@@ -76,14 +95,24 @@ fn parameters(subsystem: &Subsystem) -> Option<OscillatorParameters> {
         return None;
     }
     let models = models();
-    let model = models.iter().find(|model| model.describe().name == "oscillator")?.describe();
-    let given = subsystem.parameters.iter().map(|(name, value)| match value.kind {
-        Some(linchpin_proto::v1::value::Kind::Number(number)) => Some((name.as_str(), number)),
-        _ => None,
-    });
+    let model = models
+        .iter()
+        .find(|model| model.describe().name == "oscillator")?
+        .describe();
+    let given = subsystem
+        .parameters
+        .iter()
+        .map(|(name, value)| match value.kind {
+            Some(linchpin_proto::v1::value::Kind::Number(number)) => Some((name.as_str(), number)),
+            _ => None,
+        });
     let given: Vec<(&str, f64)> = given.collect::<Option<_>>()?;
     let setup = Setup::new(&model, &given, None, 0.0).ok()?;
     let is_bound = setup.parameter("partner_stiffness").ok()? != 0.0
         || setup.parameter("partner_damping").ok()? != 0.0;
-    if is_bound { None } else { OscillatorParameters::from_setup(&setup).ok() }
+    if is_bound {
+        None
+    } else {
+        OscillatorParameters::from_setup(&setup).ok()
+    }
 }

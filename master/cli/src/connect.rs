@@ -33,7 +33,11 @@ pub struct Connector {
 impl Connector {
     /// A connector; nothing is started yet.
     pub fn new(place: Place) -> Self {
-        Self { place, runtime: OnceLock::new(), launcher: OnceLock::new() }
+        Self {
+            place,
+            runtime: OnceLock::new(),
+            launcher: OnceLock::new(),
+        }
     }
 
     /// The connection to the worker of `subsystem`.
@@ -43,16 +47,26 @@ impl Connector {
         subsystem: &Subsystem,
     ) -> Result<Box<dyn Connection>, StartError> {
         match &subsystem.served {
-            Served::BuiltIn if self.place != Place::Processes => Ok(self.in_this_process(subsystem)),
+            Served::BuiltIn if self.place != Place::Processes => {
+                Ok(self.in_this_process(subsystem))
+            }
             Served::BuiltIn => {
                 let program = std::env::current_exe()?;
                 let program = program.to_string_lossy().into_owned();
                 let command = [program, "worker".into(), "--exit-with-stdin".into()];
-                start(self.launcher()?, &subsystem.name, &command, &self.way(scene, subsystem)?)
+                start(
+                    self.launcher()?,
+                    &subsystem.name,
+                    &command,
+                    &self.way(scene, subsystem)?,
+                )
             }
-            Served::Command(command) => {
-                start(self.launcher()?, &subsystem.name, command, &self.way(scene, subsystem)?)
-            }
+            Served::Command(command) => start(
+                self.launcher()?,
+                &subsystem.name,
+                command,
+                &self.way(scene, subsystem)?,
+            ),
             Served::Address(address) => Ok(connect(address, &self.way(scene, subsystem)?)?),
         }
     }

@@ -51,11 +51,18 @@ pub struct ErrorMeter {
 impl ErrorMeter {
     /// A meter for rows like `row`.
     pub fn new(closed_form: ClosedForm, row: &Row) -> Self {
-        let known = row.columns().iter().enumerate().filter_map(|(place, name)| {
-            let quantity = closed_form.quantity(name)?;
-            Some((place, name.clone(), quantity, ColumnError::default()))
-        });
-        Self { columns: known.collect(), closed_form }
+        let known = row
+            .columns()
+            .iter()
+            .enumerate()
+            .filter_map(|(place, name)| {
+                let quantity = closed_form.quantity(name)?;
+                Some((place, name.clone(), quantity, ColumnError::default()))
+            });
+        Self {
+            columns: known.collect(),
+            closed_form,
+        }
     }
 
     /// Takes the row of one macro point.
@@ -70,6 +77,8 @@ impl ErrorMeter {
 
     /// Name and error of every column that has an exact value.
     pub fn errors(&self) -> impl Iterator<Item = (&str, &ColumnError)> {
-        self.columns.iter().map(|(_, name, _, error)| (name.as_str(), error))
+        self.columns
+            .iter()
+            .map(|(_, name, _, error)| (name.as_str(), error))
     }
 }

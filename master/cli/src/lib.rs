@@ -7,7 +7,10 @@
 //! * [`plot`]: pictures.
 
 pub mod closed_form;
+pub mod commands;
 pub mod connect;
+pub mod diagnostics;
 pub mod error_norm;
 pub mod plot;
+pub mod results;
 pub mod simulate;

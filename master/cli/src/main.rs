@@ -1,1 +1,73 @@
-fn main() {}
+//! `linchpin`: distributed co-simulation with rigid joints.
+
+use std::io::IsTerminal;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use linchpin::commands::{CommandError, check, describe, run, worker};
+use linchpin::diagnostics;
+use tracing_subscriber::filter::Targets;
+use tracing_subscriber::prelude::*;
+
+/// Couple black-box solvers by rigid joints
+#[derive(Debug, Parser)]
+#[command(
+    version,
+    propagate_version = true,
+    after_help = "Examples:
+  linchpin run scenes/oscillator.toml
+  linchpin run scenes/oscillator.toml --out /tmp/fine --set coupling.macro_step=1e-4
+  linchpin check scenes/oscillator.toml
+  linchpin worker --listen 127.0.0.1:50051
+
+Exit codes: 0 done, 1 the run failed, 2 the scene or the command line is wrong."
+)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+
+    /// What is logged to the error output, e.g. debug or linchpin_master=trace
+    #[arg(
+        long,
+        global = true,
+        env = "LINCHPIN_LOG",
+        default_value = "warn",
+        value_name = "FILTER"
+    )]
+    log: Targets,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Arguments),
+    Check(check::Arguments),
+    Worker(worker::Arguments),
+    Describe(describe::Arguments),
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let lines = tracing_subscriber::fmt::layer()
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal());
+    tracing_subscriber::registry()
+        .with(lines)
+        .with(arguments.log)
+        .init();
+    match execute(&arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            diagnostics::show(&error, std::io::stderr().is_terminal());
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn execute(command: &Command) -> Result<(), CommandError> {
+    match command {
+        Command::Run(arguments) => run::execute(arguments),
+        Command::Check(arguments) => check::execute(arguments),
+        Command::Worker(arguments) => worker::execute(arguments),
+        Command::Describe(arguments) => describe::execute(arguments),
+    }
+}

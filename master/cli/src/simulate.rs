@@ -44,12 +44,18 @@ pub fn simulate<R: Recorder>(
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
     let mut simulation = CoSimulation::start(scene, &mut connect, options)?;
     let all = simulation.grid().len();
-    recorder.begin(simulation.row()).map_err(SimulateError::Record)?;
-    recorder.record(simulation.row()).map_err(SimulateError::Record)?;
+    recorder
+        .begin(simulation.row())
+        .map_err(SimulateError::Record)?;
+    recorder
+        .record(simulation.row())
+        .map_err(SimulateError::Record)?;
     while simulation.macro_step()? {
         let done = simulation.steps_done();
         if done % scene.output.every == 0 || done == all {
-            recorder.record(simulation.row()).map_err(SimulateError::Record)?;
+            recorder
+                .record(simulation.row())
+                .map_err(SimulateError::Record)?;
         }
         recorder.progress(done, all, simulation.t());
     }

@@ -147,17 +147,19 @@ impl WorkerProcess {
     }
 }
 
-impl Drop for WorkerProcess {
-    fn drop(&mut self) {
-        // The closed input asks a Linchpin worker to end; one that does not listen to it is killed.
+impl WorkerProcess {
+    /// Closes its input, which asks a Linchpin worker to end, and waits for that for a moment.
+    pub async fn end(&mut self) {
         drop(self.child.stdin.take());
         let give_up = Instant::now() + GRACE;
-        while Instant::now() < give_up {
-            if !matches!(self.child.try_wait(), Ok(None)) {
-                return;
-            }
-            std::thread::sleep(Duration::from_millis(1));
+        while Instant::now() < give_up && matches!(self.child.try_wait(), Ok(None)) {
+            tokio::time::sleep(Duration::from_millis(1)).await;
         }
+    }
+}
+
+impl Drop for WorkerProcess {
+    fn drop(&mut self) {
         // Errors here mean that it is gone already.
         let _ = self.child.kill();
         let _ = self.child.wait();

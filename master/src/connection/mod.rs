@@ -172,8 +172,22 @@ pub fn start(
 
 /// A connection together with the worker process that serves it; the process ends with the connection.
 struct Owned {
+    // Dropped in this order.
     connection: Box<dyn Connection>,
+    process: Ending,
+}
+
+/// Ends a worker process when it is dropped.
+struct Ending {
     process: WorkerProcess,
+    runtime: Arc<Runtime>,
+}
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        // The runtime closes the sockets only while it runs, and a worker ends only when its sockets are closed.
+        self.runtime.block_on(self.process.end());
+    }
 }
 
 impl Connection for Owned {
@@ -190,7 +204,7 @@ impl Connection for Owned {
     }
 
     fn last_words(&self) -> String {
-        self.process.last_words()
+        self.process.process.last_words()
     }
 
     fn route(&self) -> &'static str {

@@ -10,6 +10,7 @@ pub struct Row {
     columns: Vec<String>,
     values: Vec<f64>,
     first_outputs: Vec<usize>,
+    positions: Vec<usize>,
     first_multiplier: usize,
     first_residual: usize,
     levels: usize,
@@ -26,6 +27,10 @@ impl Row {
         }
         let first_multiplier = columns.len();
         let joints = &parts.layout.joints;
+        let ends = joints.iter().flat_map(|joint| &joint.ends);
+        let positions = ends
+            .map(|end| first_outputs[end.subsystem] + end.outputs[0])
+            .collect();
         columns.extend(joints.iter().map(|joint| format!("{}.lambda", joint.name)));
         let first_residual = columns.len();
         let levels = parts.layout.level.up_to();
@@ -37,6 +42,7 @@ impl Row {
             values: vec![0.0; columns.len()],
             columns,
             first_outputs,
+            positions,
             first_multiplier,
             first_residual,
             levels: levels.len(),
@@ -74,6 +80,14 @@ impl Row {
     pub fn get(&self, column: &str) -> Option<f64> {
         let place = self.columns.iter().position(|name| name == column)?;
         self.values.get(place).copied()
+    }
+
+    /// Whether a column belongs to the picture of a run: marker positions, position residuals, multipliers.
+    pub fn is_drawn(&self, place: usize) -> bool {
+        let is_multiplier = (self.first_multiplier..self.first_residual).contains(&place);
+        let is_residual = place >= self.first_residual
+            && (place - self.first_residual).is_multiple_of(self.levels);
+        is_multiplier || is_residual || self.positions.contains(&place)
     }
 
     /// Columns and values of outputs and multipliers: what may grow.

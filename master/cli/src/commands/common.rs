@@ -45,7 +45,10 @@ pub struct OutputArguments {
 impl OutputArguments {
     /// Makes the folder and tries whether files can be written there, before any work is done.
     pub fn prepare(&self, scene: &Scene) -> Result<PathBuf, CommandError> {
-        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(&scene.name));
+        let folder = self
+            .out
+            .clone()
+            .unwrap_or_else(|| Path::new("out").join(&scene.name));
         prepare_folder(&folder)?;
         Ok(folder)
     }
@@ -58,11 +61,15 @@ impl OutputArguments {
 
 /// Makes a folder that files can be written to.
 pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
-    let unwritable =
-        |source| CommandError::Unwritable { path: folder.to_owned(), source };
+    let unwritable = |source| CommandError::Unwritable {
+        path: folder.to_owned(),
+        source,
+    };
     fs::create_dir_all(folder).map_err(unwritable)?;
     let trial = folder.join(".linchpin-trial");
-    fs::write(&trial, "").and_then(|()| fs::remove_file(&trial)).map_err(unwritable)
+    fs::write(&trial, "")
+        .and_then(|()| fs::remove_file(&trial))
+        .map_err(unwritable)
 }
 
 /// A name that can be part of a path: letters, digits, `-`, `_` and `.` stay, runs of anything else become one `-`.

@@ -102,9 +102,10 @@ impl CommandError {
     /// Says which case an error belongs to.
     pub fn in_case(self, case: &str) -> Self {
         match self {
-            Self::Run(source) if !matches!(source, RunError::Scene(_)) => {
-                Self::Case { case: case.to_owned(), source }
-            }
+            Self::Run(source) if !matches!(source, RunError::Scene(_)) => Self::Case {
+                case: case.to_owned(),
+                source,
+            },
             other => other,
         }
     }

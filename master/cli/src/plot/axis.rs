@@ -6,32 +6,33 @@ use super::scale::Scale;
 use super::style::{TICK_TEXT, text_width, units};
 use super::tick::{Tick, Ticks};
 
-/// A range on a scale with its ticks; the coordinate that plotters draws.
+const MOST_TICKS: i32 = 9;
+
+/// Pixels between tick labels side by side.
+const LABEL_GAP: f64 = 24.0;
+
+/// Distance between tick labels one above the other, in text heights.
+const LINE_SPACING: f64 = 1.55;
+
+/// A range on a scale with its ticks. To plotters it is an axis of the coordinate in which the scale is uniform.
 #[derive(Clone)]
 pub(super) struct Axis {
     scale: Scale,
-    lower: f64,
-    upper: f64,
+    low: f64,
+    high: f64,
     ticks: Ticks,
 }
 
 impl Axis {
-    /// An axis of the given length in drawing units whose labels stand side by side.
+    /// An axis over a range of the uniform coordinate, of the given length in drawing units, with labels side by side.
     pub(super) fn horizontal(scale: Scale, range: (f64, f64), length: i32) -> Self {
-        Self::with_fitting_ticks(scale, range, |labels| {
-            labels
-                .iter()
-                .map(|tick| text_width(&tick.label, TICK_TEXT) + units(24.0))
-                .sum::<i32>()
-                <= length
-        })
+        let room = |tick: &Tick| text_width(&tick.label, TICK_TEXT) + units(LABEL_GAP);
+        Self::with_fitting_ticks(scale, range, length, room)
     }
 
-    /// An axis of the given length in drawing units whose labels stand one above the other.
+    /// The same with labels one above the other.
     pub(super) fn vertical(scale: Scale, range: (f64, f64), length: i32) -> Self {
-        Self::with_fitting_ticks(scale, range, |labels| {
-            labels.len() as i32 * units(1.9 * TICK_TEXT) <= length
-        })
+        Self::with_fitting_ticks(scale, range, length, |_| units(LINE_SPACING * TICK_TEXT))
     }
 
     /// An axis without ticks, for a panel without any point.
@@ -42,23 +43,34 @@ impl Axis {
         };
         Self {
             scale: Scale::Linear,
-            lower: 0.0,
-            upper: 1.0,
+            low: 0.0,
+            high: 1.0,
             ticks,
         }
     }
 
-    fn with_fitting_ticks(scale: Scale, range: (f64, f64), fits: impl Fn(&[Tick]) -> bool) -> Self {
-        let mut wanted = 9;
+    /// The densest ticks whose labels, with this room for each, do not touch.
+    fn with_fitting_ticks(
+        scale: Scale,
+        range: (f64, f64),
+        length: i32,
+        room: impl Fn(&Tick) -> i32,
+    ) -> Self {
+        let (low, high) = range;
+        let apart = |pair: &[Tick]| {
+            let distance = (pair[1].coordinate - pair[0].coordinate) / (high - low);
+            distance * f64::from(length) >= f64::from(room(&pair[0]) + room(&pair[1])) / 2.0
+        };
+        let mut wanted = MOST_TICKS;
         let mut ticks = Ticks::in_range(scale, range, wanted);
-        while wanted > 2 && !fits(&ticks.major) {
+        while wanted > 1 && !ticks.major.windows(2).all(apart) {
             wanted -= 1;
             ticks = Ticks::in_range(scale, range, wanted);
         }
         Self {
             scale,
-            lower: range.0,
-            upper: range.1,
+            low,
+            high,
             ticks,
         }
     }
@@ -80,16 +92,17 @@ impl Axis {
 
     /// Place of the value as a share of the axis: 0 at the lower, 1 at the upper end.
     pub(super) fn position(&self, value: f64) -> f64 {
-        let (low, high) = (
-            self.scale.forward(self.lower),
-            self.scale.forward(self.upper),
-        );
-        (self.scale.forward(value) - low) / (high - low)
+        self.share(self.scale.forward(value))
+    }
+
+    /// The same for a value of the uniform coordinate.
+    pub(super) fn share(&self, coordinate: f64) -> f64 {
+        (coordinate - self.low) / (self.high - self.low)
     }
 
     /// Length of the axis in its uniform coordinate: a difference, or a number of decades.
     pub(super) fn span(&self) -> f64 {
-        self.scale.forward(self.upper) - self.scale.forward(self.lower)
+        self.high - self.low
     }
 }
 
@@ -97,29 +110,33 @@ impl Ranged for Axis {
     type FormatOption = NoDefaultFormatting;
     type ValueType = f64;
 
-    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
-        limit.0 + (self.position(*value) * f64::from(limit.1 - limit.0)).round() as i32
+    fn map(&self, coordinate: &f64, limit: (i32, i32)) -> i32 {
+        limit.0 + (self.share(*coordinate) * f64::from(limit.1 - limit.0)).round() as i32
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
         if hint.weight().allow_light_points() {
             self.ticks.minor.clone()
         } else {
-            self.ticks.major.iter().map(|tick| tick.value).collect()
+            self.ticks
+                .major
+                .iter()
+                .map(|tick| tick.coordinate)
+                .collect()
         }
     }
 
     fn range(&self) -> Range<f64> {
-        self.lower..self.upper
+        self.low..self.high
     }
 }
 
 impl ValueFormatter<f64> for Axis {
-    fn format_ext(&self, value: &f64) -> String {
+    fn format_ext(&self, coordinate: &f64) -> String {
         self.ticks
             .major
             .iter()
-            .find(|tick| tick.value == *value)
+            .find(|tick| tick.coordinate == *coordinate)
             .map(|tick| tick.label.clone())
             .unwrap_or_default()
     }

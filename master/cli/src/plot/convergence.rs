@@ -8,7 +8,7 @@ use super::canvas::{Drawn, Picture, Surface, embed_font, write};
 use super::error::PlotError;
 use super::legend::{Legend, distinct};
 use super::panel::{Axes, Panel, inner_height, inner_width, room_left};
-use super::scale::Scale;
+use super::scale::{Scale, padded};
 use super::slope::draw_slopes;
 use super::style::{curve_style, stroke, units};
 use super::tiling::{PICTURE_WIDTH, Tiling, check_number};
@@ -90,7 +90,7 @@ impl ConvergencePanel {
 
     fn range(&self, coordinate: impl Fn(&(f64, f64)) -> f64) -> Option<(f64, f64)> {
         let extent = LOG.extent(self.runs().flatten().map(coordinate))?;
-        Some(LOG.padded(LOG.opened(extent), MARGIN))
+        Some(padded(LOG.range(extent), MARGIN))
     }
 }
 

@@ -48,6 +48,7 @@ pub struct MapPanel {
 /// A cell with the rectangle that belongs to it.
 pub(super) struct PlacedCell {
     pub centre: (f64, f64),
+    /// Corners in the uniform coordinates of the axes.
     pub lower: (f64, f64),
     pub upper: (f64, f64),
     pub cell: MapCell,
@@ -87,7 +88,7 @@ impl MapPanel {
     }
 }
 
-/// The part of an axis that belongs to one grid value.
+/// The part of an axis that belongs to one grid value, in the uniform coordinate.
 pub(super) struct Interval {
     pub index: usize,
     pub value: f64,
@@ -131,7 +132,7 @@ impl MapAxis {
         let last = places.len().saturating_sub(1);
         let interval = |(place, (index, value)): (usize, (usize, f64))| {
             let (lower, upper) = match (place, last) {
-                (_, 0) => self.around_single(value),
+                (_, 0) => self.scale.range((value, value)),
                 (0, _) => (2.0 * places[0] - edge(0), edge(0)),
                 (place, last) if place == last => {
                     (edge(place - 1), 2.0 * places[place] - edge(place - 1))
@@ -141,16 +142,11 @@ impl MapAxis {
             Interval {
                 index,
                 value,
-                lower: self.scale.backward(lower),
-                upper: self.scale.backward(upper),
+                lower,
+                upper,
             }
         };
         held.into_iter().enumerate().map(interval).collect()
-    }
-
-    fn around_single(&self, value: f64) -> (f64, f64) {
-        let (lower, upper) = self.scale.opened((value, value));
-        (self.scale.forward(lower), self.scale.forward(upper))
     }
 }
 
@@ -177,11 +173,8 @@ mod tests {
             [(0.5, 1.5), (1.5, 3.0), (3.0, 5.0)]
         );
         let logarithmic = edges(Scale::Logarithmic, &[-1.0, 0.0, 1.0, 100.0]);
-        for (found, expected) in logarithmic.iter().zip([(0.1, 10.0), (10.0, 1000.0)]) {
-            assert!(
-                (found.0 / expected.0 - 1.0).abs() < 1e-12
-                    && (found.1 / expected.1 - 1.0).abs() < 1e-12
-            );
+        for (found, expected) in logarithmic.iter().zip([(-1.0, 1.0), (1.0, 3.0)]) {
+            assert!((found.0 - expected.0).abs() < 1e-12 && (found.1 - expected.1).abs() < 1e-12);
         }
         assert_eq!(logarithmic.len(), 2);
     }

@@ -134,10 +134,10 @@ impl<'a> Layout<'a> {
         };
         for placed in cells {
             if let Some(colour) = placed.cell.growth.and_then(|growth| colours.of(growth)) {
-                let corners = [inside.place(placed.lower), inside.place(placed.upper)];
+                let (lower, upper) = corners(inside, placed);
                 inside
                     .area
-                    .draw(&Rectangle::new(corners, colour.filled()))?;
+                    .draw(&Rectangle::new([lower, upper], colour.filled()))?;
             }
         }
         Ok(())
@@ -171,9 +171,15 @@ fn axis(axis: &MapAxis, with_range: impl FnOnce((f64, f64)) -> Axis) -> Axis {
     }
 }
 
+/// Lower left and upper right corner of a cell, in drawing units.
+fn corners<DB: Surface>(inside: &Panel<DB>, placed: &PlacedCell) -> ((i32, i32), (i32, i32)) {
+    let corner = |(x, y)| inside.at(inside.x.share(x), inside.y.share(y));
+    (corner(placed.lower), corner(placed.upper))
+}
+
 fn draw_marks<DB: Surface>(inside: &Panel<DB>, cells: &[PlacedCell]) -> Drawn<DB> {
     let smaller_side = |placed: &PlacedCell| {
-        let (lower, upper) = (inside.place(placed.lower), inside.place(placed.upper));
+        let (lower, upper) = corners(inside, placed);
         (upper.0 - lower.0).min(lower.1 - upper.1)
     };
     let side = cells.iter().map(smaller_side).min().unwrap_or(0);

@@ -87,7 +87,7 @@ impl<DB: Surface> Panel<DB> {
         };
         let mut chart = ChartBuilder::on(area)
             .margin_left(units(LEFT_MARGIN))
-            .margin_right(units(RIGHT_MARGIN))
+            .margin_right(units(RIGHT_MARGIN).max(axes.x.label_width() / 2 + units(4.0)))
             .margin_top(units(room_above(axes.title)))
             .set_label_area_size(LabelAreaPosition::Left, axes.left - units(LEFT_MARGIN))
             .set_label_area_size(LabelAreaPosition::Bottom, below)
@@ -115,7 +115,9 @@ impl<DB: Surface> Panel<DB> {
             height,
         };
         panel.frame()?;
-        panel.entitle(axes.title)?;
+        if !axes.title.is_empty() {
+            panel.entitle(axes.title)?;
+        }
         Ok(panel)
     }
 

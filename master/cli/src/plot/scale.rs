@@ -31,14 +31,6 @@ impl Scale {
         }
     }
 
-    /// Inverse of [`Scale::forward`].
-    pub(super) fn backward(self, coordinate: f64) -> f64 {
-        match self {
-            Self::Linear => coordinate,
-            Self::Logarithmic => 10f64.powf(coordinate),
-        }
-    }
-
     /// Smallest and largest value that can be drawn, `None` without any.
     pub(super) fn extent(self, values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
         values
@@ -49,29 +41,22 @@ impl Scale {
             })
     }
 
-    /// The extent, widened to a usable axis range if it is (nearly) a single value.
-    pub(super) fn opened(self, (least, greatest): (f64, f64)) -> (f64, f64) {
-        match self {
-            Self::Logarithmic if greatest / least < 1.0 + ROUNDING => (least / 3.0, greatest * 3.0),
-            Self::Linear => {
-                let magnitude = least.abs().max(greatest.abs());
-                let span = greatest - least;
-                if magnitude < SMALLEST {
-                    (-1.0, 1.0)
-                } else if span <= ROUNDING * magnitude || span < SMALLEST {
-                    (least - 0.1 * magnitude, greatest + 0.1 * magnitude)
-                } else {
-                    (least, greatest)
-                }
-            }
-            Self::Logarithmic => (least, greatest),
-        }
+    /// Range of the uniform coordinate that shows an extent of values, widened if that is (nearly) a single value.
+    pub(super) fn range(self, (least, greatest): (f64, f64)) -> (f64, f64) {
+        let (low, high) = (self.forward(least), self.forward(greatest));
+        let magnitude = least.abs().max(greatest.abs());
+        let widening = match self {
+            Self::Logarithmic if high - low < ROUNDING => 0.5,
+            Self::Linear if magnitude < SMALLEST => 1.0,
+            Self::Linear if high - low <= (ROUNDING * magnitude).max(SMALLEST) => 0.1 * magnitude,
+            _ => 0.0,
+        };
+        (low - widening, high + widening)
     }
+}
 
-    /// The range with a margin at both ends, as a share of its length.
-    pub(super) fn padded(self, (lower, upper): (f64, f64), share: f64) -> (f64, f64) {
-        let (low, high) = (self.forward(lower), self.forward(upper));
-        let margin = share * (high - low);
-        (self.backward(low - margin), self.backward(high + margin))
-    }
+/// The range with a margin at both ends, as a share of its length.
+pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
+    let margin = share * (high - low);
+    (low - margin, high + margin)
 }

@@ -11,7 +11,7 @@ use super::legend::{Legend, distinct};
 use super::panel::{
     Axes, Panel, RIGHT_MARGIN, height_for_label, room_above, room_below, room_left,
 };
-use super::scale::Scale;
+use super::scale::{Scale, padded};
 use super::style::{FRAME, TITLE_TEXT, curve_style, fitted, stroke, text, units};
 use super::thinning::thinned;
 use super::tiling::{PICTURE_WIDTH, check_number};
@@ -115,7 +115,7 @@ impl TimePanel {
         let Some(extent) = self.y_scale.extent(self.drawable().map(|(_, y)| y)) else {
             return Axis::blank();
         };
-        let range = self.y_scale.padded(self.y_scale.opened(extent), Y_MARGIN);
+        let range = padded(self.y_scale.range(extent), Y_MARGIN);
         Axis::vertical(self.y_scale, range, units(self.height() - room_above("")))
     }
 
@@ -148,7 +148,7 @@ impl<'a> Layout<'a> {
             .iter()
             .flat_map(TimePanel::drawable)
             .map(|(t, _)| t);
-        let time_range = Scale::Linear.opened(Scale::Linear.extent(times)?);
+        let time_range = Scale::Linear.range(Scale::Linear.extent(times)?);
         let values: Vec<Axis> = plot.panels.iter().map(TimePanel::axis).collect();
         let left = values.iter().map(room_left).max().unwrap_or(0);
         let names = names_to_tell_apart(plot);

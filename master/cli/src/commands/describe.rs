@@ -1,0 +1,137 @@
+//! `linchpin describe`: what a worker can simulate.
+
+use std::time::Duration;
+
+use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
+use linchpin_proto::contract::Contract;
+use linchpin_proto::v1::{self, DescribeReply, Model, Variable};
+use linchpin_proto::version::{PROTOCOL, negotiate};
+
+use super::CommandError;
+
+/// Show the models, variables and markers of a running worker
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  linchpin describe http://127.0.0.1:50051
+  linchpin describe unix:/run/linchpin/mass1.sock")]
+pub struct Arguments {
+    /// Address of the worker: http://HOST:PORT or unix:/PATH
+    address: String,
+
+    /// Longest time for an answer, in s
+    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = seconds)]
+    timeout: f64,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
+        _ => Err("it must be a number of seconds greater than 0 and at most 1e6".into()),
+    }
+}
+
+/// Asks the worker and prints its answer.
+pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let limit = Duration::from_secs_f64(arguments.timeout);
+    let limits = TimeLimits {
+        start: limit,
+        answer: limit,
+    };
+    let failed = |source| CommandError::Start {
+        address: arguments.address.clone(),
+        source: linchpin_master::connection::StartError::Call(source),
+    };
+    let worker = Grpc::connect(&arguments.address, limits, new_runtime()?).map_err(failed)?;
+    let request = v1::DescribeRequest {
+        protocol: Some(PROTOCOL),
+    };
+    let description = worker.describe(&request).map_err(failed)?;
+    print!("{}", text(&description));
+    negotiate(description.protocol.as_ref()).map_err(|source| CommandError::Incompatible {
+        address: arguments.address.clone(),
+        source,
+    })
+}
+
+fn text(description: &DescribeReply) -> String {
+    let protocol = description.protocol.unwrap_or_default();
+    let mut text = format!(
+        "{} {}, protocol linchpin {}.{}\n",
+        description.worker, description.worker_version, protocol.major, protocol.minor
+    );
+    for model in &description.models {
+        text += &model_text(model);
+    }
+    text
+}
+
+fn model_text(model: &Model) -> String {
+    let mut text = format!("\nmodel {}: {}\n", model.name, model.description);
+    for (heading, variables) in [("inputs", &model.inputs), ("outputs", &model.outputs)] {
+        text += &format!("  {heading}\n");
+        for Variable {
+            name,
+            unit,
+            description,
+            default,
+        } in variables
+        {
+            text += &line(name, unit, description, *default);
+        }
+    }
+    text += "  parameters\n";
+    for parameter in &model.parameters {
+        text += &line(
+            &parameter.name,
+            &parameter.unit,
+            &parameter.description,
+            parameter.default,
+        );
+    }
+    text += "  markers\n";
+    for marker in &model.markers {
+        let motion = [
+            Some(&marker.position),
+            marker.velocity.as_ref(),
+            marker.acceleration.as_ref(),
+        ];
+        let motion: Vec<&str> = motion.into_iter().flatten().map(String::as_str).collect();
+        text += &format!(
+            "    {:<20} motion {}, load {}\n",
+            marker.name,
+            motion.join(", "),
+            marker.load
+        );
+    }
+    text += "  solvers\n";
+    for solver in &model.solvers {
+        text += &format!("    {:<20} {}\n", solver.name, solver.description);
+        for option in &solver.options {
+            text += &line(
+                &option.name,
+                &option.unit,
+                &option.description,
+                option.default,
+            );
+        }
+    }
+    let capabilities = model.capabilities.unwrap_or_default();
+    text += &format!(
+        "  exchange stream {}, perturbed steps repeat the step sequence {}, exportable snapshots {}\n",
+        yes(capabilities.exchange),
+        yes(capabilities.repeats_step_sequence),
+        yes(capabilities.exportable_snapshot)
+    );
+    text
+}
+
+fn line(name: &str, unit: &str, description: &str, default: Option<f64>) -> String {
+    let default = default
+        .map(|value| format!(", default {value}"))
+        .unwrap_or_default();
+    format!("    {name:<20} {unit:<8} {description}{default}\n")
+}
+
+fn yes(value: bool) -> &'static str {
+    if value { "yes" } else { "no" }
+}

@@ -1,0 +1,108 @@
+//! `linchpin worker`: serves the built-in models.
+
+use std::io::{Read, Write};
+use std::sync::Arc;
+
+use linchpin_models::models;
+use linchpin_worker::host::{Host, Limits};
+use linchpin_worker::server::{Address, Reach, Server};
+use tokio::signal::unix::{SignalKind, signal};
+use tokio::sync::oneshot;
+
+use super::CommandError;
+
+/// Serve the built-in models over gRPC
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  linchpin worker --listen 127.0.0.1:50051
+  linchpin worker --listen unix:/run/linchpin/mass1.sock
+  linchpin worker --listen 0.0.0.0:50051 --allow-remote     in a container")]
+pub struct Arguments {
+    /// Where to listen: IP:PORT (port 0: the system chooses) or unix:/PATH
+    #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:0")]
+    listen: Address,
+
+    /// Permit an address that other machines can reach; nothing is encrypted
+    #[arg(long)]
+    allow_remote: bool,
+
+    /// Threads; with more than one, health is answered during long steps, and instances compute at the same time
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: u16,
+
+    /// Most instances at a time
+    #[arg(long, value_name = "N", default_value_t = Limits::default().instances)]
+    max_instances: usize,
+
+    /// End when the standard input is closed, as a master does that started this worker
+    #[arg(long)]
+    exit_with_stdin: bool,
+}
+
+/// Serves until SIGTERM, Ctrl-C or, if asked, the end of the standard input.
+pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let runtime = match arguments.threads {
+        // One thread wakes up faster than two that share the work.
+        1 => tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()?,
+        threads => tokio::runtime::Builder::new_multi_thread()
+            .worker_threads(threads.into())
+            .enable_all()
+            .build()?,
+    };
+    runtime.block_on(serve(arguments))
+}
+
+async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
+    let limits = Limits {
+        instances: arguments.max_instances,
+        ..Limits::default()
+    };
+    let host = Arc::new(Host::with_limits(models(), limits));
+    let reach = if arguments.allow_remote {
+        Reach::Anyone
+    } else {
+        Reach::Local
+    };
+    let server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    let mut terminate = signal(SignalKind::terminate())?;
+    let mut interrupt = signal(SignalKind::interrupt())?;
+    let input_closed = arguments.exit_with_stdin.then(watch_input);
+    announce(server.address());
+    let shutdown = async move {
+        tokio::select! {
+            _ = terminate.recv() => {}
+            _ = interrupt.recv() => {}
+            () = closed(input_closed) => {}
+        }
+    };
+    Ok(server.serve(shutdown).await?)
+}
+
+/// Whoever started the worker may have closed its output; that is no reason to stop.
+fn announce(address: &Address) {
+    let mut output = std::io::stdout();
+    let _ = writeln!(output, "listening on {address}").and_then(|()| output.flush());
+}
+
+/// Waits on a thread of its own: a read of the standard input cannot be called off.
+fn watch_input() -> oneshot::Receiver<()> {
+    let (sender, receiver) = oneshot::channel();
+    std::thread::spawn(move || {
+        let mut buffer = [0; 64];
+        let mut input = std::io::stdin();
+        while matches!(input.read(&mut buffer), Ok(1..)) {}
+        // Nobody waits any more if the worker is ending already.
+        let _ = sender.send(());
+    });
+    receiver
+}
+
+async fn closed(input: Option<oneshot::Receiver<()>>) {
+    match input {
+        // An error means that the watching thread is gone, and the input with it.
+        Some(receiver) => drop(receiver.await),
+        None => std::future::pending().await,
+    }
+}

@@ -1,0 +1,117 @@
+#![allow(clippy::unwrap_used)]
+
+mod charts;
+mod errors;
+mod odd_data;
+mod read;
+
+use std::path::PathBuf;
+
+use super::*;
+
+/// A directory of its own for one test, removed afterwards.
+struct Directory(PathBuf);
+
+impl Directory {
+    fn new(test: &str) -> Self {
+        let name = format!("linchpin-plot-{}-{test}", std::process::id());
+        let path = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    fn stem(&self) -> PathBuf {
+        self.0.join("H=0.5e-3")
+    }
+
+    fn svg(&self) -> read::Svg {
+        read::Svg::parse(&std::fs::read_to_string(self.0.join("H=0.5e-3.svg")).unwrap())
+    }
+
+    fn png_size(&self) -> (u32, u32) {
+        let bytes = std::fs::read(self.0.join("H=0.5e-3.png")).unwrap();
+        assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
+        let number = |from: usize| u32::from_be_bytes(bytes[from..from + 4].try_into().unwrap());
+        (number(16), number(20))
+    }
+}
+
+impl Drop for Directory {
+    fn drop(&mut self) {
+        std::fs::remove_dir_all(&self.0).unwrap();
+    }
+}
+
+fn series(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> TimeSeries {
+    let (t, y) = points.into_iter().unzip();
+    TimeSeries {
+        name: name.into(),
+        t,
+        y,
+    }
+}
+
+fn time_panel(y_label: &str, y_scale: Scale, series: Vec<TimeSeries>) -> TimePanel {
+    TimePanel {
+        y_label: y_label.into(),
+        y_scale,
+        series,
+    }
+}
+
+fn over_time(panels: Vec<TimePanel>) -> TimePanels {
+    TimePanels {
+        title: None,
+        time_label: "t (s)".into(),
+        panels,
+    }
+}
+
+fn curve(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> ConvergenceCurve {
+    ConvergenceCurve {
+        name: name.into(),
+        points: points.into_iter().collect(),
+    }
+}
+
+fn convergence_panel(
+    title: &str,
+    curves: Vec<ConvergenceCurve>,
+    slopes: &[f64],
+) -> ConvergencePanel {
+    ConvergencePanel {
+        title: title.into(),
+        x_label: "macro step H (s)".into(),
+        y_label: "error of x₁ (m)".into(),
+        curves,
+        reference_slopes: slopes.to_vec(),
+    }
+}
+
+fn map_panel(
+    title: &str,
+    x: Vec<f64>,
+    y: Vec<f64>,
+    cell: impl Fn(f64, f64) -> MapCell,
+) -> MapPanel {
+    let pairs = y.iter().flat_map(|y| x.iter().map(|x| (*x, *y)));
+    let cells = pairs.map(|(x, y)| cell(x, y)).collect();
+    let axis = |label: &str, values| MapAxis {
+        label: label.into(),
+        scale: Scale::Logarithmic,
+        values,
+    };
+    MapPanel {
+        title: title.into(),
+        x: axis("stiffness c (N/m)", x),
+        y: axis("damping d (N s/m)", y),
+        cells,
+    }
+}
+
+/// `count` values from `first` to `last` in equal ratios.
+fn ratios(count: u32, first: f64, last: f64) -> Vec<f64> {
+    (0..count)
+        .map(|i| first * (last / first).powf(f64::from(i) / f64::from(count - 1)))
+        .collect()
+}

@@ -1,0 +1,174 @@
+//! The report of a run: a summary to read and `run.json` to process.
+
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+use linchpin_master::results::Statistics;
+use linchpin_master::scene::Scene;
+use serde::Serialize;
+
+use super::Trace;
+use crate::commands::CommandError;
+use crate::commands::common::SceneArguments;
+use crate::error_norm::ErrorMeter;
+
+/// What a finished run tells.
+pub struct RunReport {
+    /// Counts, times, residuals.
+    pub statistics: Statistics,
+    /// Errors against the closed form, if the scene has one.
+    pub errors: Option<ErrorMeter>,
+    /// Series for the picture.
+    pub traces: Vec<Trace>,
+    /// Time of the whole run in s.
+    pub wall_time: f64,
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    linchpin: &'static str,
+    scene: &'a str,
+    case: Option<&'a str>,
+    scene_file: String,
+    scene_text: String,
+    overrides: Vec<String>,
+    t_start: f64,
+    t_end: f64,
+    macro_step: f64,
+    degree: usize,
+    method: String,
+    wall_time: f64,
+    statistics: &'a Statistics,
+    errors: Vec<ColumnErrorJson<'a>>,
+}
+
+#[derive(Serialize)]
+struct ColumnErrorJson<'a> {
+    column: &'a str,
+    /// Root mean square over that of the exact solution; absent if the exact solution is 0.
+    normalised: Option<f64>,
+    largest: f64,
+}
+
+impl RunReport {
+    /// Writes `run.json`.
+    pub fn write_json(
+        &self,
+        scene: &Scene,
+        arguments: &SceneArguments,
+        case: Option<&str>,
+        path: &Path,
+    ) -> Result<(), CommandError> {
+        let unwritable = |source| CommandError::Unwritable {
+            path: path.to_owned(),
+            source,
+        };
+        let json = Json {
+            linchpin: env!("CARGO_PKG_VERSION"),
+            scene: &scene.name,
+            case,
+            scene_file: arguments.scene.display().to_string(),
+            scene_text: fs::read_to_string(&arguments.scene).map_err(unwritable)?,
+            overrides: arguments.set.iter().map(ToString::to_string).collect(),
+            t_start: scene.t_start,
+            t_end: scene.t_end,
+            macro_step: scene.coupling.macro_step,
+            degree: scene.coupling.degree,
+            method: format!("{:?}", scene.coupling.method),
+            wall_time: self.wall_time,
+            statistics: &self.statistics,
+            errors: self
+                .errors
+                .iter()
+                .flat_map(ErrorMeter::errors)
+                .map(as_json)
+                .collect(),
+        };
+        let text = serde_json::to_string_pretty(&json).map_err(std::io::Error::from);
+        text.and_then(|text| fs::write(path, text + "\n"))
+            .map_err(unwritable)
+    }
+
+    /// A summary of about a dozen lines.
+    pub fn summary(&self, scene: &Scene, case: Option<&str>) -> String {
+        let mut text = String::new();
+        // Writing to a string does not fail.
+        let _ = self.write_summary(scene, case, &mut text);
+        text
+    }
+
+    fn write_summary(
+        &self,
+        scene: &Scene,
+        case: Option<&str>,
+        text: &mut String,
+    ) -> std::fmt::Result {
+        let statistics = &self.statistics;
+        let case = case.map(|case| format!(" [{case}]")).unwrap_or_default();
+        let t_end = scene.t_end;
+        let speed = (t_end - scene.t_start) / self.wall_time;
+        writeln!(
+            text,
+            "{}{case}: reached t = {t_end} s in {:.3} s ({speed:.3} x real time)",
+            scene.name, self.wall_time
+        )?;
+        for (column, error) in self.errors.iter().flat_map(ErrorMeter::errors) {
+            writeln!(
+                text,
+                "  error of {column:<22} {:>10.3e} relative (rms), {:>10.3e} largest",
+                error.normalised(),
+                error.largest()
+            )?;
+        }
+        for joint in &statistics.joints {
+            let name = format!("{} ({})", joint.joint, joint.level);
+            writeln!(
+                text,
+                "  residual of {name:<19} {:>10.3e} largest",
+                joint.largest
+            )?;
+        }
+        let verdicts = &statistics.verdicts;
+        writeln!(
+            text,
+            "  macro steps  {:>10}   good {}, fair {}, poor {}, without corrector {}",
+            statistics.macro_steps,
+            verdicts.good,
+            verdicts.fair,
+            verdicts.poor,
+            verdicts.uncorrected
+        )?;
+        writeln!(text, "  exchanges    {:>10}", statistics.exchanges)?;
+        writeln!(
+            text,
+            "  integrations {:>10}   {} internal solver steps",
+            statistics.integrations, statistics.solver_steps
+        )?;
+        for subsystem in &statistics.subsystems {
+            writeln!(
+                text,
+                "    {:<20} {} ({:.3} s in its solver)",
+                subsystem.subsystem, subsystem.route, subsystem.time_in_solver
+            )?;
+        }
+        let around = self.wall_time - statistics.time_total;
+        let exchanging = statistics.time_total - statistics.time_solving;
+        write!(
+            text,
+            "  time: exchanges {exchanging:.3} s, coupling equations {:.3} s, start, results and end {around:.3} s",
+            statistics.time_solving
+        )
+    }
+}
+
+fn as_json<'a>(
+    (column, error): (&'a str, &'a crate::error_norm::ColumnError),
+) -> ColumnErrorJson<'a> {
+    let normalised = error.normalised();
+    ColumnErrorJson {
+        column,
+        normalised: normalised.is_finite().then_some(normalised),
+        largest: error.largest(),
+    }
+}
