@@ -174,7 +174,7 @@ pub fn start(
 struct Owned {
     // Dropped in this order.
     connection: Box<dyn Connection>,
-    process: Ending,
+    ending: Ending,
 }
 
 /// Ends a worker process when it is dropped.
@@ -204,7 +204,7 @@ impl Connection for Owned {
     }
 
     fn last_words(&self) -> String {
-        self.process.process.last_words()
+        self.ending.process.last_words()
     }
 
     fn route(&self) -> &'static str {

@@ -42,8 +42,8 @@ impl Surface for SVGBackend<'_> {
     }
 }
 
-/// Every segment by itself with round joins: plotters 0.3.7 fills the outline of a bent line as one polygon, which leaves
-/// long spikes at sharp turns.
+/// Every segment by itself with round joins: plotters 0.3.7 fills the outline of a bent line as one polygon, which
+/// leaves long spikes at sharp turns.
 impl Surface for BitMapBackend<'_> {
     fn polyline(
         area: &DrawingArea<Self, Shift>,

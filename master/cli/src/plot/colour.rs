@@ -8,8 +8,8 @@ use super::style::{FRAME, LABEL_TEXT, TICK_TEXT, fitted, stroke, text, text_widt
 
 /// Colours of growth factors: blue below 1, white at 1, red above.
 ///
-/// Either side uses the whole of its colour, however unequal their widths: below 1 in proportion to the distance from 1,
-/// above 1 in proportion to the logarithm, because factors of unstable cases spread over decades.
+/// Either side uses the whole of its colour, however unequal their widths: below 1 in proportion to the distance
+/// from 1, above 1 in proportion to the logarithm, because factors of unstable cases spread over decades.
 pub(super) struct GrowthColours {
     least: f64,
     greatest: f64,
@@ -179,6 +179,7 @@ fn growth_label(value: f64) -> String {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

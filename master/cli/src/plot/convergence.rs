@@ -40,8 +40,8 @@ pub struct ConvergencePanel {
 pub struct ConvergenceCurve {
     /// Name in the legend; an empty one is left out there.
     pub name: String,
-    /// Points in the order in which they are joined: (step size or cost, error). A point that is not positive and finite
-    /// is left out and breaks the line.
+    /// Points in the order in which they are joined: (step size or cost, error). A point that is not positive and
+    /// finite is left out and breaks the line.
     pub points: Vec<(f64, f64)>,
 }
 

@@ -4,8 +4,8 @@
 //! work-precision diagram is the same chart with cost on the abscissa) and [`map`] (stability over two parameters).
 //! All of them write `STEM.svg` and `STEM.png` from one drawing.
 //!
-//! What cannot be drawn is a gap in a line, never a failure: NaN, infinity, a magnitude above 1e300, and on a logarithmic
-//! axis everything below 1e-300, zero and negative numbers.
+//! What cannot be drawn is a gap in a line, never a failure: NaN, infinity, a magnitude above 1e300, and on a
+//! logarithmic axis everything below 1e-300, zero and negative numbers.
 
 mod axis;
 mod canvas;

@@ -3,8 +3,8 @@ use super::axis::Axis;
 /// Points of a curve that are joined by a line.
 pub(super) type Run = Vec<(f64, f64)>;
 
-/// The curve as unbroken runs with at most four points for each of `columns` equal intervals of the x axis: the first, the
-/// lowest, the highest and the last. With one column for each pixel the picture is that of all points.
+/// The curve as unbroken runs with at most four points for each of `columns` equal intervals of the x axis: the
+/// first, the lowest, the highest and the last. With one column for each pixel the picture is that of all points.
 ///
 /// A point that an axis does not hold breaks the line, unless the line goes on within the same column.
 pub(super) fn thinned(

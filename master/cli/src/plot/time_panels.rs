@@ -67,10 +67,10 @@ pub fn time_panels(plot: &TimePanels, stem: &Path) -> Result<(), PlotError> {
 
 const TITLE_HEIGHT: f64 = 42.0;
 const PANEL_HEIGHT: f64 = 250.0;
-const HIGHEST_PANEL: f64 = 420.0;
+const HIGHEST_PANEL: f64 = 560.0;
 const Y_MARGIN: f64 = 0.06;
 const LINE_WIDTH: f64 = 1.75;
-const DOT_RADIUS: f64 = 1.75;
+const DOT_RADIUS: f64 = 3.0;
 const MARKER_RADIUS: f64 = 5.0;
 const MARKERS_PER_SERIES: usize = 9;
 
