@@ -159,10 +159,7 @@ pub fn start(
         }
         match reached {
             Ok(connection) => {
-                return Ok(Box::new(Owned {
-                    connection,
-                    process,
-                }));
+                return Ok(Box::new(Owned { connection, ending }));
             }
             Err(CallError::Unreachable { .. }) if Instant::now() < give_up => {}
             Err(error) => return Err(error.into()),
