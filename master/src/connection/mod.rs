@@ -159,6 +159,8 @@ pub fn start(
         }
         match reached {
             Ok(connection) => {
+                let runtime = Arc::clone(&way.runtime);
+                let ending = Ending { process, runtime };
                 return Ok(Box::new(Owned { connection, ending }));
             }
             Err(CallError::Unreachable { .. }) if Instant::now() < give_up => {}

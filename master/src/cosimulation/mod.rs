@@ -17,7 +17,7 @@ use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics, Verdict};
 use crate::time::{MacroGrid, MacroStep};
 
-pub use start::{Connect, Options};
+pub use start::{Connect, Options, describe};
 pub(crate) use subsystem::exchange;
 
 /// A running co-simulation.
@@ -87,6 +87,11 @@ impl CoSimulation {
     /// Number of macro steps done.
     pub fn steps_done(&self) -> usize {
         self.next
+    }
+
+    /// The subsystems in the order of the scene.
+    pub fn subsystems(&self) -> &[Subsystem] {
+        &self.parts.subsystems
     }
 
     /// The macro-time grid.

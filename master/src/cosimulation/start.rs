@@ -42,9 +42,7 @@ impl CoSimulation {
         options: &Options,
     ) -> Result<Self, RunError> {
         let mut subsystems = connect_all(scene, connect)?;
-        let models = (0..subsystems.len())
-            .map(|number| model_of(scene, number, &subsystems[number]))
-            .collect::<Result<Vec<_>, _>>()?;
+        let models = models_of(scene, &subsystems)?;
         let joints = mark(scene, &models)?;
         let layout = layout_of(scene, &joints)?;
         let recorded = recorded_outputs(scene, &models, &layout.outputs)?;
@@ -86,6 +84,17 @@ impl CoSimulation {
             statistics,
         })
     }
+}
+
+/// Asks the worker of every subsystem what the scene's model of it offers; starts no instance.
+pub fn describe(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<v1::Model>, RunError> {
+    models_of(scene, &connect_all(scene, connect)?)
+}
+
+fn models_of(scene: &Scene, subsystems: &[Subsystem]) -> Result<Vec<v1::Model>, RunError> {
+    let all = subsystems.iter().enumerate();
+    all.map(|(number, subsystem)| model_of(scene, number, subsystem))
+        .collect()
 }
 
 fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem>, RunError> {
