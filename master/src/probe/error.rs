@@ -1,0 +1,82 @@
+//! Why a scene has no macro-step map.
+
+use crate::error::RunError;
+
+/// Why the macro-step map of a scene could not be had.
+#[derive(Debug, thiserror::Error)]
+pub enum ProbeError {
+    /// The co-simulation could not start or failed within its first steps.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A subsystem does not say what its state is.
+    #[error(
+        "the model \"{model}\" of subsystem \"{subsystem}\" does not describe its states, so there is no macro-step map; \
+         judge the stability by simulation"
+    )]
+    HiddenState {
+        /// Name in the scene.
+        subsystem: String,
+        /// Its model.
+        model: String,
+    },
+    /// A subsystem's solver makes errors of the size of its tolerance.
+    #[error(
+        "the solver of subsystem \"{subsystem}\" works to a tolerance of {tolerance:e}, so its steps are not linear in the \
+         state; use an exact solver or one with fixed steps"
+    )]
+    Inexact {
+        /// Name in the scene.
+        subsystem: String,
+        /// What the worker reports.
+        tolerance: f64,
+    },
+    /// The method remembers motion that the probe cannot set.
+    #[error(
+        "force/displacement coupling of degree {degree} remembers forces and motion at earlier macro points, which cannot \
+         be set; its macro-step map can be had for coupling.degree = 0 only"
+    )]
+    RemembersMotion {
+        /// Degree of the polynomials.
+        degree: usize,
+    },
+    /// An output that a model calls a state did not come back.
+    #[error(
+        "{column} is a state of its model but was not answered; the worker does not keep to the contract linchpin.v1"
+    )]
+    NotRecorded {
+        /// Result column.
+        column: String,
+    },
+    /// The scene does not stay at rest.
+    #[error(
+        "the scene is driven: from a state of zeros {column} becomes {value:e} in one macro step; only scenes without loads \
+         from outside have a macro-step map"
+    )]
+    Driven {
+        /// Result column.
+        column: String,
+        /// Its value.
+        value: f64,
+    },
+    /// Two macro steps are not twice the map.
+    #[error(
+        "the scene is not linear, or a subsystem has states that it does not describe: two macro steps bring {column} to \
+         {found:e} instead of {expected:e}"
+    )]
+    NotLinear {
+        /// Result column.
+        column: String,
+        /// What the co-simulation found.
+        found: f64,
+        /// What the map says.
+        expected: f64,
+    },
+    /// The iteration for the eigenvalues failed.
+    #[error(
+        "the eigenvalues of the macro-step map ({size} x {size}) cannot be computed: the iteration does not converge"
+    )]
+    NoConvergence {
+        /// Number of rows.
+        size: usize,
+    },
+}
