@@ -1,1 +1,12 @@
-//! Placeholder.
+//! Helpers of the integration tests: scenes, runs inside this process, errors, orders of convergence.
+//!
+//! A helper that cannot do its work panics: that is how a test fails.
+
+#![allow(clippy::unwrap_used)]
+
+pub mod convergence;
+pub mod errors;
+pub mod masses;
+pub mod runs;
+pub mod scenes;
+pub mod spring_pair;

@@ -1,0 +1,34 @@
+//! The oscillator scene of S1 with settings changed.
+
+use linchpin_master::scene::{Override, Scene, parse};
+
+const OSCILLATOR: &str = include_str!("../../scenes/oscillator.toml");
+
+/// `scenes/oscillator.toml` with other `coupling` settings, given as `"index=1 beta=2e-3 gamma=1e-6"`.
+pub fn oscillator(coupling: &str) -> Scene {
+    oscillator_with(coupling, &[])
+}
+
+/// Like [`oscillator`], with more overrides, each as `"key=value"`.
+pub fn oscillator_with(coupling: &str, others: &[&str]) -> Scene {
+    with_settings(OSCILLATOR, coupling, others)
+}
+
+/// A scene given as text with other `coupling` settings and more overrides.
+pub fn with_settings(text: &str, coupling: &str, others: &[&str]) -> Scene {
+    let coupling = coupling
+        .split_whitespace()
+        .map(|setting| format!("coupling.{setting}"));
+    let others = others.iter().map(|setting| (*setting).to_owned());
+    let overrides: Vec<Override> = coupling
+        .chain(others)
+        .map(|setting| setting.parse().unwrap())
+        .collect();
+    parse(text, "test scene", &overrides).unwrap_or_else(|errors| panic!("{errors}"))
+}
+
+/// Overrides that give both masses of the oscillator scene the solver Radau IIA(5) with its default tolerances.
+pub const RADAU5: [&str; 2] = [
+    "subsystem.mass1.solver={ kind = \"radau5\" }",
+    "subsystem.mass2.solver={ kind = \"radau5\" }",
+];
