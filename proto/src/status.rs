@@ -48,6 +48,12 @@ fn from_failure(failure: &Failure) -> Status {
 
 /// What a status of a worker means to its master. `call` is the call that was answered so.
 pub fn to_error(call: &'static str, status: &Status) -> CallError {
+    // Only statuses that the transport makes here have a source; those of a worker come as code and text.
+    if let Some(source) = std::error::Error::source(status) {
+        return CallError::Lost {
+            reason: source.to_string(),
+        };
+    }
     let severity = match status.code() {
         Code::Unimplemented => return CallError::Unimplemented { call },
         Code::Unavailable | Code::Cancelled => {

@@ -7,6 +7,8 @@ mod tie;
 
 use std::time::Instant;
 
+use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
+
 pub use subsystem::Subsystem;
 
 use crate::coupling::explicit::Explicit;
@@ -102,6 +104,12 @@ impl CoSimulation {
     /// Everything that is recorded of the present macro point.
     pub fn row(&self) -> &Row {
         &self.row
+    }
+
+    /// The last request to a subsystem and its answer; `None` if there is no such subsystem.
+    pub fn last_messages(&self, subsystem: usize) -> Option<(&ExchangeRequest, &ExchangeReply)> {
+        let subsystem = self.parts.subsystems.get(subsystem)?;
+        Some((&subsystem.request, &subsystem.reply))
     }
 
     /// Counts, times and residuals so far.

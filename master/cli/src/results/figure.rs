@@ -27,7 +27,7 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
             let most = if is_single { usize::MAX } else { 1 };
             series.extend(chosen.take(most).map(|trace| TimeSeries {
                 name: case.map_or_else(|| trace.name.clone(), |case| case.name.clone()),
-                t: trace.t.iter().map(|t| t - delay).collect(),
+                t: trace.t.iter().map(|t| (t - delay).max(scene.t_start)).collect(),
                 y: trace.y.clone(),
             }));
         }

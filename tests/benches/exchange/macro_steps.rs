@@ -1,0 +1,144 @@
+//! Macro steps of the two-mass oscillator.
+
+use std::process::{Child, Command, Stdio};
+
+use linchpin::connect::{Connector, Place};
+use linchpin_master::CoSimulation;
+use linchpin_master::cosimulation::Options;
+use linchpin_master::scene::{Scene, parse};
+use linchpin_proto::v1;
+use prost::Message;
+
+use crate::report::Series;
+
+const SCENE: &str = include_str!("../../../scenes/oscillator.toml");
+
+/// Long enough for every block of every round.
+const LONG: &str = "scene.t_end=1e5";
+
+/// The messages of one macro step with one worker.
+pub struct Messages {
+    /// From the master.
+    pub request: v1::ExchangeRequest,
+    /// From the worker.
+    pub reply: v1::ExchangeReply,
+}
+
+impl Messages {
+    /// The request on the wire.
+    pub fn request_bytes(&self) -> Vec<u8> {
+        self.request.encode_to_vec()
+    }
+
+    /// The reply on the wire.
+    pub fn reply_bytes(&self) -> Vec<u8> {
+        self.reply.encode_to_vec()
+    }
+}
+
+fn scene(overrides: &[&str]) -> Scene {
+    let overrides: Vec<_> = overrides.iter().map(|text| text.parse().unwrap()).collect();
+    parse(SCENE, "oscillator.toml", &overrides).unwrap()
+}
+
+struct Running {
+    simulation: CoSimulation,
+    // Kept: they end the workers.
+    _connector: Connector,
+    _workers: Vec<Worker>,
+}
+
+impl Running {
+    fn start(scene: &Scene, place: Place, workers: Vec<Worker>) -> Self {
+        let connector = Connector::new(place);
+        let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
+        let simulation = CoSimulation::start(scene, &mut connect, &Options::default()).unwrap();
+        Self {
+            simulation,
+            _connector: connector,
+            _workers: workers,
+        }
+    }
+
+    fn series(mut self, name: &'static str) -> Series {
+        Series::new(name, move || {
+            // All of it is captured, also what is only kept alive.
+            let running = &mut self;
+            assert!(running.simulation.macro_step().unwrap());
+        })
+    }
+}
+
+/// A worker process of this very program.
+struct Worker(Child);
+
+impl Worker {
+    fn start(address: &str) -> Self {
+        let program = std::env::current_exe().unwrap();
+        let mut command = Command::new(program);
+        command.args(["worker", "--exit-with-stdin", "--listen", address]);
+        Self(
+            command
+                .stdin(Stdio::piped())
+                .stdout(Stdio::null())
+                .spawn()
+                .unwrap(),
+        )
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+/// A free port of this machine, free again when this returns.
+pub fn free_port() -> u16 {
+    std::net::TcpListener::bind("127.0.0.1:0")
+        .unwrap()
+        .local_addr()
+        .unwrap()
+        .port()
+}
+
+/// All ways of a macro step.
+pub fn all() -> Vec<Series> {
+    let plain = scene(&[LONG]);
+    let unary = scene(&[LONG, "subsystem.*.calls=unary"]);
+    let ports = [free_port(), free_port()];
+    let tcp_workers = ports
+        .map(|port| Worker::start(&format!("127.0.0.1:{port}")))
+        .into();
+    let addresses = [1, 2].map(|number| {
+        format!(
+            "subsystem.mass{number}.address=http://127.0.0.1:{}",
+            ports[number - 1]
+        )
+    });
+    let tcp = scene(&[LONG, &addresses[0], &addresses[1]]);
+    vec![
+        Running::start(&plain, Place::InProcess, Vec::new()).series("macro step, in process"),
+        Running::start(&plain, Place::Processes, Vec::new())
+            .series("macro step, 2 processes, stream, Unix sockets"),
+        Running::start(&tcp, Place::Processes, tcp_workers)
+            .series("macro step, 2 processes, stream, TCP"),
+        Running::start(&unary, Place::Processes, Vec::new())
+            .series("macro step, 2 processes, unary calls, Unix sockets"),
+    ]
+}
+
+/// The messages that one macro step exchanges with one worker.
+pub fn messages() -> Messages {
+    let scene = scene(&[LONG]);
+    let mut running = Running::start(&scene, Place::InProcess, Vec::new());
+    for _ in 0..10 {
+        running.simulation.macro_step().unwrap();
+    }
+    let (request, reply) = running.simulation.last_messages(0).unwrap();
+    Messages {
+        request: request.clone(),
+        reply: reply.clone(),
+    }
+}
