@@ -23,3 +23,8 @@ pub use inputs::Inputs;
 pub use setup::Setup;
 pub use snapshot::Snapshot;
 pub use subsystem::{Interval, Model, StepFailure, Subsystem};
+
+/// The examples of the guide are compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/workers.md")]
+pub struct Guide;

@@ -1,6 +1,6 @@
 //! Coupling conditions and Jacobian of the whole scene.
 
-use faer::Mat;
+use faer::{Mat, unzip, zip};
 
 use super::columns::Column;
 use super::layout::Layout;
@@ -142,7 +142,8 @@ impl System {
                 .iter_mut()
                 .zip(&self.residuals[level as usize]);
             rows.for_each(|(sum, g)| *sum += weight * g);
-            self.combined_jacobian += faer::Scale(weight) * &self.jacobians[level as usize];
+            let jacobian = &self.jacobians[level as usize];
+            zip!(&mut self.combined_jacobian, jacobian).for_each(|unzip!(sum, g)| *sum += weight * *g);
         }
     }
 
