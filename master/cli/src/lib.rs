@@ -4,6 +4,7 @@
 //! * [`simulate`]: one run;
 //! * [`closed_form`]: the exact solution of scenes that have one;
 //! * [`error_norm`]: errors of a run;
+//! * [`study`]: many runs of one scene with other settings;
 //! * [`plot`]: pictures.
 
 pub mod closed_form;
@@ -14,3 +15,4 @@ pub mod error_norm;
 pub mod plot;
 pub mod results;
 pub mod simulate;
+pub mod study;

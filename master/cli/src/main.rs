@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use linchpin::commands::{CommandError, check, describe, run, worker};
+use linchpin::commands::{CommandError, check, converge, describe, run, stability, worker};
 use linchpin::diagnostics;
 use tracing_subscriber::filter::Targets;
 use tracing_subscriber::prelude::*;
@@ -43,6 +43,8 @@ enum Command {
     Check(check::Arguments),
     Worker(worker::Arguments),
     Describe(describe::Arguments),
+    Converge(converge::Arguments),
+    Stability(stability::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -69,5 +71,7 @@ fn execute(command: &Command) -> Result<(), CommandError> {
         Command::Check(arguments) => check::execute(arguments),
         Command::Worker(arguments) => worker::execute(arguments),
         Command::Describe(arguments) => describe::execute(arguments),
+        Command::Converge(arguments) => converge::execute(arguments),
+        Command::Stability(arguments) => stability::execute(arguments),
     }
 }

@@ -19,6 +19,18 @@ pub struct Coupling {
     pub increment: Increment,
 }
 
+impl Coupling {
+    /// Whether a multiplier at `T_{N+1}` is its mean over the step before: the corrector of degree 0 holds it over the
+    /// whole step, so as a value in time it belongs to the middle of the step.
+    pub fn multipliers_are_step_means(&self) -> bool {
+        let is_corrected = matches!(
+            self.method,
+            Method::Baumgarte { .. } | Method::Weighted { .. }
+        );
+        is_corrected && self.degree == 0
+    }
+}
+
 /// What is demanded of the joints at the macro points, and how the multipliers follow from it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {

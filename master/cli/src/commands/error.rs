@@ -10,6 +10,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
+use crate::study::StudyError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -47,6 +48,22 @@ pub enum CommandError {
     /// A picture cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// A study has no result.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The scene does not say what to study.
+    #[error(
+        "{} has no [{section}] section, so there is nothing to study; write one, or give {flags}",
+        path.display()
+    )]
+    NothingToStudy {
+        /// The scene.
+        path: PathBuf,
+        /// Section of the scene file.
+        section: &'static str,
+        /// Flags that do the same.
+        flags: &'static str,
+    },
     /// No worker at an address.
     #[error("{address}: {source}")]
     Start {
@@ -78,7 +95,8 @@ impl CommandError {
     /// Exit code: 2 for mistakes that a check of the scene finds, 1 for everything that happens later.
     pub fn exit_code(&self) -> u8 {
         match self {
-            Self::Scene(_) | Self::Run(RunError::Scene(_)) => 2,
+            Self::NothingToStudy { .. } => 2,
+            _ if self.scene_errors().is_some() => 2,
             _ => 1,
         }
     }
@@ -87,6 +105,7 @@ impl CommandError {
     pub fn scene_errors(&self) -> Option<&SceneErrors> {
         match self {
             Self::Scene(errors) | Self::Run(RunError::Scene(errors)) => Some(errors),
+            Self::Study(error) => error.scene_errors(),
             _ => None,
         }
     }

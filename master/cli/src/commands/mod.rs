@@ -2,9 +2,11 @@
 
 pub mod check;
 pub mod common;
+pub mod converge;
 pub mod describe;
 pub mod error;
 pub mod run;
+pub mod stability;
 pub mod worker;
 
 pub use error::CommandError;

@@ -1,0 +1,102 @@
+//! Pictures of a convergence study.
+
+use std::path::Path;
+
+use super::{CaseRuns, ConvergeRun, Outcome, Quantity, least_squares};
+use crate::plot::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, convergence};
+
+/// Slopes beyond these are due to rounding or divergence and get no line.
+const SLOPES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
+
+/// Draws the errors over the macro step to `STEM.svg` and `STEM.png`.
+///
+/// # Errors
+/// [`PlotError`]: nothing to draw, unwritable path.
+pub fn draw_errors(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotError> {
+    let quantities = [
+        (Quantity::State, "error of the state norm"),
+        (Quantity::Position, "error of the position"),
+        (Quantity::Multiplier, "error of the multiplier"),
+        (
+            Quantity::MultiplierAtMidStep,
+            "error of the multiplier, mid-step",
+        ),
+    ];
+    let panel = |(quantity, title): (Quantity, &str)| ConvergencePanel {
+        title: title.to_owned(),
+        x_label: "H in s".to_owned(),
+        y_label: "NRMS".to_owned(),
+        curves: curves(cases, |run| Some((run.macro_step, run.error(quantity)?))),
+        reference_slopes: slopes(cases, quantity),
+    };
+    let panels = quantities.map(panel).into_iter().filter(has_points);
+    let plot = ConvergencePlot {
+        panels: panels.collect(),
+    };
+    convergence(&plot, stem)
+}
+
+/// Draws the errors over the number of integrations to `STEM.svg` and `STEM.png`.
+///
+/// # Errors
+/// [`PlotError`]: nothing to draw, unwritable path.
+pub fn draw_work_precision(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotError> {
+    let quantities = [
+        (Quantity::State, "error of the state norm over cost"),
+        (Quantity::Multiplier, "error of the multiplier over cost"),
+    ];
+    let panel = |(quantity, title): (Quantity, &str)| ConvergencePanel {
+        title: title.to_owned(),
+        x_label: "integrations over a macro step".to_owned(),
+        y_label: "NRMS".to_owned(),
+        curves: curves(cases, |run| Some((cost(run)?, run.error(quantity)?))),
+        reference_slopes: Vec::new(),
+    };
+    let panels = quantities.map(panel).into_iter().filter(has_points);
+    let plot = ConvergencePlot {
+        panels: panels.collect(),
+    };
+    convergence(&plot, stem)
+}
+
+fn curves(
+    cases: &[CaseRuns],
+    point: impl Fn(&ConvergeRun) -> Option<(f64, f64)>,
+) -> Vec<ConvergenceCurve> {
+    let curve = |case: &CaseRuns| ConvergenceCurve {
+        name: case.case.clone(),
+        // A run without an error is a gap in the line.
+        points: case
+            .runs
+            .iter()
+            .map(|run| point(run).unwrap_or((run.macro_step, f64::NAN)))
+            .collect(),
+    };
+    cases.iter().map(curve).collect()
+}
+
+fn has_points(panel: &ConvergencePanel) -> bool {
+    let mut points = panel.curves.iter().flat_map(|curve| &curve.points);
+    points.any(|point| point.1.is_finite())
+}
+
+fn cost(run: &ConvergeRun) -> Option<f64> {
+    match &run.outcome {
+        Outcome::Done { statistics, .. } => Some(statistics.integrations as f64),
+        Outcome::Diverged(_) => None,
+    }
+}
+
+/// The whole numbers next to the observed orders, each once.
+fn slopes(cases: &[CaseRuns], quantity: Quantity) -> Vec<f64> {
+    let orders = cases
+        .iter()
+        .filter_map(|case| least_squares(&case.runs, quantity));
+    let mut slopes: Vec<f64> = orders
+        .map(f64::round)
+        .filter(|slope| SLOPES.contains(slope))
+        .collect();
+    slopes.sort_by(f64::total_cmp);
+    slopes.dedup();
+    slopes
+}

@@ -1,0 +1,55 @@
+//! Why a study has no result.
+
+use linchpin_master::RunError;
+use linchpin_master::scene::SceneErrors;
+
+/// Why a study has no result.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// A setting that the study brings in does not fit the scene.
+    #[error(transparent)]
+    Scene(#[from] SceneErrors),
+    /// A run failed in another way than by diverging.
+    #[error("{case}: {source}")]
+    Run {
+        /// Which case, for the message.
+        case: String,
+        /// Why.
+        source: RunError,
+    },
+    /// There is no exact solution to compare with.
+    #[error(
+        "{case}: no closed form is known for this scene; it must consist of built-in oscillators that rigid links make one \
+         body and that start alike. Compare with the finest run: --reference finest"
+    )]
+    NoClosedForm {
+        /// Which case, for the message.
+        case: String,
+    },
+    /// The run that all others are compared with diverged.
+    #[error(
+        "{case}: the run with the smallest macro step, {macro_step:e} s, is the reference, but it diverged: {reason}"
+    )]
+    ReferenceDiverged {
+        /// Which case, for the message.
+        case: String,
+        /// Macro step in s.
+        macro_step: f64,
+        /// How.
+        reason: String,
+    },
+}
+
+impl StudyError {
+    /// The mistakes in the scene, if it is these.
+    pub fn scene_errors(&self) -> Option<&SceneErrors> {
+        match self {
+            Self::Scene(errors)
+            | Self::Run {
+                source: RunError::Scene(errors),
+                ..
+            } => Some(errors),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! One point of a stability map.
+
+/// What was found at one point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Value of the horizontal axis.
+    pub x: f64,
+    /// Value of the vertical axis.
+    pub y: f64,
+    /// By simulation.
+    pub simulated: Simulated,
+    /// Spectral radius of the macro-step map, where there is one.
+    pub radius: Option<f64>,
+}
+
+/// What a simulation showed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Simulated {
+    /// Largest position in the last tenth of the macro steps over that in the first; infinite if the run failed.
+    pub growth: f64,
+    /// Number of macro steps.
+    pub steps: usize,
+}
+
+/// Whether simulation and spectral radius say the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Agreement {
+    /// They do.
+    Agree,
+    /// They do not, but the radius is so near 1 that the simulated steps are too few to tell.
+    Undecided,
+    /// They do not.
+    Disagree,
+}
+
+/// A simulation whose positions have grown by more than this is unstable.
+const MOST_GROWTH: f64 = 10.0;
+
+/// A map is stable up to this spectral radius: 1, and rounding.
+const STABLE_RADIUS: f64 = 1.0 + 1e-9;
+
+/// A simulation can tell that a map is unstable when its fastest mode grows at least by this factor: it starts as
+/// a small part of the motion, and must become ten times the whole.
+const TELLING: f64 = 1e3;
+
+impl Simulated {
+    /// Whether the positions stayed bounded.
+    pub fn is_stable(&self) -> bool {
+        self.growth <= MOST_GROWTH
+    }
+}
+
+impl Cell {
+    /// Whether simulation and spectral radius say the same; `None` without a radius.
+    pub fn agreement(&self) -> Option<Agreement> {
+        let radius = self.radius?;
+        let agreement = if (radius <= STABLE_RADIUS) == self.simulated.is_stable() {
+            Agreement::Agree
+        } else if radius.ln().abs() * (self.simulated.steps as f64) < TELLING.ln() {
+            Agreement::Undecided
+        } else {
+            Agreement::Disagree
+        };
+        Some(agreement)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn agreement(growth: f64, radius: f64) -> Agreement {
+        let simulated = Simulated { growth, steps: 200 };
+        let cell = Cell {
+            x: 1.0,
+            y: 1.0,
+            simulated,
+            radius: Some(radius),
+        };
+        cell.agreement().unwrap()
+    }
+
+    #[test]
+    fn a_simulation_that_is_too_short_does_not_disagree() {
+        assert_eq!(agreement(1.3, 0.97), Agreement::Agree);
+        assert_eq!(agreement(1.3, 1.0 + 1e-10), Agreement::Agree);
+        assert_eq!(agreement(f64::INFINITY, 1.2), Agreement::Agree);
+        assert_eq!(agreement(1.3, 1.01), Agreement::Undecided);
+        assert_eq!(agreement(1.3, 1.04), Agreement::Disagree);
+        assert_eq!(agreement(11.0, 0.96), Agreement::Disagree);
+    }
+}

@@ -1,0 +1,179 @@
+//! Stability over two settings: by simulation, and by the spectral radius of the macro-step map where there is one.
+
+mod blow_up;
+mod cell;
+mod picture;
+mod table;
+
+use linchpin_master::probe::{ProbeError, macro_step_map};
+use linchpin_master::scene::{Axis, Scene, StabilitySettings};
+use linchpin_proto::v1::Model;
+use rayon::prelude::*;
+
+use super::StudyError;
+use super::runs::{Variant, divergence, in_process, judged_columns};
+use blow_up::BlowUp;
+pub use cell::{Agreement, Cell, Simulated};
+pub use picture::draw_map;
+pub use table::{Count, summary, write_csv};
+
+/// The map of one case.
+#[derive(Debug, Clone)]
+pub struct CaseMap {
+    /// Name of the case, or of the scene.
+    pub case: String,
+    /// Cells row after row: x runs faster.
+    pub cells: Vec<Cell>,
+    /// Why there are no spectral radii, if there are none.
+    pub no_radius: Option<String>,
+}
+
+/// Values of both axes in increasing order.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    x: Axis,
+    y: Axis,
+}
+
+impl Grid {
+    /// The grid that the settings describe.
+    pub fn new(settings: &StabilitySettings) -> Self {
+        let sorted = |axis: &Axis| {
+            let mut axis = axis.clone();
+            axis.values.sort_by(f64::total_cmp);
+            axis.values.dedup();
+            axis
+        };
+        Self {
+            x: sorted(&settings.x),
+            y: sorted(&settings.y),
+        }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.x.values.len() * self.y.values.len()
+    }
+
+    /// Whether there is no point.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The points row after row.
+    fn points(&self) -> impl Iterator<Item = (f64, f64)> {
+        let rows = self.y.values.iter();
+        rows.flat_map(|&y| self.x.values.iter().map(move |&x| (x, y)))
+    }
+
+    /// The scene at one point.
+    fn scene(&self, scene: &Scene, (x, y): (f64, f64)) -> Result<Scene, StudyError> {
+        let overrides = [self.x.overrides(x), self.y.overrides(y)].concat();
+        Ok(scene.with(&overrides)?)
+    }
+}
+
+/// Number of points of a study, for its progress.
+pub fn number_of_points(scene: &Scene, grid: &Grid) -> usize {
+    scene.cases.len().max(1) * grid.len()
+}
+
+/// Maps the scene, or each of its cases; `tick` is called after each point.
+///
+/// # Errors
+/// [`StudyError`]: a point of the grid does not fit the scene, a worker failed in another way than by diverging.
+pub fn map(
+    scene: &Scene,
+    grid: &Grid,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Vec<CaseMap>, StudyError> {
+    let studies = Variant::all(scene)?
+        .into_iter()
+        .map(|variant| Study::new(variant, grid))
+        .collect::<Result<Vec<_>, _>>()?;
+    let tasks: Vec<(&Study, (f64, f64))> = studies
+        .iter()
+        .flat_map(|study| grid.points().map(move |point| (study, point)))
+        .collect();
+    let judge = |(study, point): &(&Study, (f64, f64))| {
+        let cell = study.cell(grid, *point);
+        tick();
+        cell
+    };
+    let mut cells = tasks
+        .par_iter()
+        .map(judge)
+        .collect::<Result<Vec<_>, _>>()?
+        .into_iter();
+    let of_case = |study: &Study| CaseMap {
+        case: study.variant.name.clone(),
+        cells: cells.by_ref().take(grid.len()).collect(),
+        no_radius: study.no_radius.clone(),
+    };
+    Ok(studies.iter().map(of_case).collect())
+}
+
+/// One case.
+struct Study {
+    variant: Variant,
+    models: Vec<Model>,
+    blow_up: BlowUp,
+    no_radius: Option<String>,
+}
+
+impl Study {
+    fn new(variant: Variant, grid: &Grid) -> Result<Self, StudyError> {
+        let models = variant.models()?;
+        let blow_up = BlowUp::new(judged_columns(&variant.scene, &models));
+        let mut study = Self {
+            variant,
+            models,
+            blow_up,
+            no_radius: None,
+        };
+        if let Some(point) = grid.points().next() {
+            let scene = grid.scene(&study.variant.scene, point)?;
+            study.no_radius = study.reason_against_map(&scene)?;
+        }
+        Ok(study)
+    }
+
+    /// Why scenes of this kind have no macro-step map; `None` if they have one.
+    fn reason_against_map(&self, scene: &Scene) -> Result<Option<String>, StudyError> {
+        match in_process(|connect| macro_step_map(scene, connect)) {
+            Ok(_) => Ok(None),
+            Err(ProbeError::Run(error)) => divergence(error)
+                .map(|_| None)
+                .map_err(|error| self.variant.failed(error)),
+            Err(reason) => Ok(Some(reason.to_string())),
+        }
+    }
+
+    fn cell(&self, grid: &Grid, point: (f64, f64)) -> Result<Cell, StudyError> {
+        let scene = grid.scene(&self.variant.scene, point)?;
+        let simulated = in_process(|connect| self.blow_up.simulate(&scene, &self.models, connect))
+            .map_err(|error| self.variant.failed(error))?;
+        let radius = match &self.no_radius {
+            Some(_) => None,
+            None => self.radius(&scene)?,
+        };
+        Ok(Cell {
+            x: point.0,
+            y: point.1,
+            simulated,
+            radius,
+        })
+    }
+
+    /// The spectral radius; `None` where the co-simulation fails within its first steps, or where rounding hides it.
+    fn radius(&self, scene: &Scene) -> Result<Option<f64>, StudyError> {
+        let map = in_process(|connect| macro_step_map(scene, connect));
+        match map.and_then(|map| map.spectral_radius()) {
+            Ok(radius) => Ok(Some(radius)),
+            Err(ProbeError::Run(error)) => divergence(error)
+                .map(|_| None)
+                .map_err(|error| self.variant.failed(error)),
+            Err(_) => Ok(None),
+        }
+    }
+}
