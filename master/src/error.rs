@@ -1,9 +1,10 @@
 //! Why a run ends without a result.
 
 use linchpin_proto::contract::CallError;
+use linchpin_proto::v1::Severity;
 use linchpin_proto::version::Incompatible;
 
-use crate::connection::StartError;
+use crate::connection::{LastWords, StartError};
 use crate::scene::SceneErrors;
 
 /// Why a run could not start or had to stop.
@@ -18,7 +19,7 @@ pub enum RunError {
         /// Name in the scene.
         subsystem: String,
         /// Why.
-        source: StartError,
+        source: Box<StartError>,
     },
     /// A worker speaks another protocol.
     #[error("subsystem \"{subsystem}\": {source}")]
@@ -29,7 +30,10 @@ pub enum RunError {
         source: Incompatible,
     },
     /// A call to a worker failed.
-    #[error("subsystem \"{subsystem}\" at t = {t} s (H = {step} s): {source}{}", quoted(.last_words))]
+    #[error(
+        "subsystem \"{subsystem}\" at t = {t} s (H = {step} s): {source}{last_words}{}",
+        advice(.source)
+    )]
     Worker {
         /// Name in the scene.
         subsystem: String,
@@ -38,9 +42,9 @@ pub enum RunError {
         /// Its length; 0 before the first step.
         step: f64,
         /// What the call said.
-        source: CallError,
-        /// Last lines of the worker's error output, if known.
-        last_words: String,
+        source: Box<CallError>,
+        /// What its process left behind, if known.
+        last_words: LastWords,
     },
     /// A worker sent a number that is none.
     #[error(
@@ -76,6 +80,12 @@ pub enum RunError {
         /// Start of the macro step.
         t: f64,
     },
+    /// Somebody asked the run to stop.
+    #[error("interrupted at t = {t} s")]
+    Interrupted {
+        /// The macro point that was reached.
+        t: f64,
+    },
     /// The coupling has come apart.
     #[error(
         "the run diverged at t = {t} s (H = {step} s): joint \"{joint}\" is open by {opening:e}, the largest motion so \
@@ -97,7 +107,8 @@ pub enum RunError {
     /// A value has grown beyond all measure.
     #[error(
         "the run diverged at t = {t} s (H = {step} s): {variable} = {value:e} has grown by more than {growth:e} since \
-         the first steps; try a smaller coupling.macro_step, or a softer coupling.stiffness if the method has one"
+         the first steps; try a smaller coupling.macro_step, a lower coupling.degree or index, or a softer \
+         coupling.stiffness if the method has one"
     )]
     Grown {
         /// End of the macro step.
@@ -129,12 +140,14 @@ pub enum RunError {
     },
 }
 
-fn quoted(words: &str) -> String {
-    if words.is_empty() {
-        return String::new();
+fn advice(error: &CallError) -> &'static str {
+    match error {
+        CallError::Failed(failure) if failure.severity() == Severity::Recoverable => {
+            "\n  help: a smaller coupling.macro_step may help"
+        }
+        CallError::Deadline { .. } => {
+            "\n  help: the worker hangs, or its step takes longer: run.deadline gives it more time"
+        }
+        _ => "",
     }
-    format!(
-        "\n  last error output of the worker:\n    {}",
-        words.replace('\n', "\n    ")
-    )
 }

@@ -10,12 +10,16 @@
 //! * [`coupling`]: conditions and Jacobian of the whole scene, and the coupling methods;
 //! * [`cosimulation`]: the macro step itself, from start to end;
 //! * [`results`]: rows, residuals, verdicts, statistics;
+//! * [`interrupt`]: stopping a run from outside;
 //! * [`probe`]: the matrix of the macro-step map of a linear scene.
+
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod connection;
 pub mod cosimulation;
 pub mod coupling;
 pub mod error;
+pub mod interrupt;
 pub mod joint;
 pub mod probe;
 pub mod results;
@@ -25,3 +29,4 @@ pub mod time;
 
 pub use cosimulation::CoSimulation;
 pub use error::RunError;
+pub use interrupt::Interrupt;

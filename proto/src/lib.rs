@@ -6,6 +6,8 @@
 //! * [`status`]: failures as gRPC statuses;
 //! * [`version`]: which protocol versions understand each other.
 
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
 pub mod contract;
 pub mod polynomial;
 pub mod status;

@@ -1,5 +1,7 @@
 //! The macro step keeps its memory: once a run is under way it allocates nothing.
 
+#![allow(clippy::unwrap_used)]
+
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 

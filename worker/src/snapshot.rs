@@ -43,7 +43,7 @@ impl Snapshot {
     /// # Errors
     /// A fatal [`StepFailure`] if the snapshot has another length.
     pub fn get(&self, numbers: &mut [f64]) -> Result<(), StepFailure> {
-        let expected = numbers.len() * size_of::<f64>();
+        let expected = size_of_val(numbers);
         if self.bytes.len() != expected {
             return Err(StepFailure::Fatal {
                 message: format!(

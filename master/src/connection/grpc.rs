@@ -13,6 +13,7 @@ use tonic::transport::{Channel, Endpoint};
 use tonic::{Response, Status};
 
 use super::TimeLimits;
+use crate::interrupt::Interrupt;
 
 /// Largest message that is accepted, in bytes.
 const MESSAGE_LIMIT: usize = 16 << 20;
@@ -21,11 +22,15 @@ const MESSAGE_LIMIT: usize = 16 << 20;
 const FIRST_PAUSE: Duration = Duration::from_millis(2);
 const LONGEST_PAUSE: Duration = Duration::from_millis(100);
 
+/// Longest time for the end of an instance: a worker that hangs must not hold up the end of a run.
+const FAREWELL: Duration = Duration::from_secs(1);
+
 /// A worker behind gRPC.
 pub struct Grpc {
     pub(super) client: WorkerClient<Channel>,
     pub(super) runtime: Arc<Runtime>,
     pub(super) limits: TimeLimits,
+    pub(super) interrupt: Interrupt,
 }
 
 /// A runtime for the connections of one thread. It runs only while a call blocks on it.
@@ -37,11 +42,13 @@ pub fn new_runtime() -> std::io::Result<Arc<Runtime>> {
 }
 
 impl Grpc {
-    /// Connects to `address`, trying again until the time limit for starts is over.
+    /// Connects to `address`, trying again until the time limit for starts is over. After an `interrupt`, calls fail at
+    /// once.
     pub fn connect(
         address: &str,
         limits: TimeLimits,
         runtime: Arc<Runtime>,
+        interrupt: Interrupt,
     ) -> Result<Self, CallError> {
         let unreachable = |reason: String| CallError::Unreachable {
             address: address.into(),
@@ -52,7 +59,7 @@ impl Grpc {
             .tcp_nodelay(true)
             .connect_timeout(limits.start);
         let channel = runtime
-            .block_on(reach(&endpoint, limits.start))
+            .block_on(unless(&interrupt, reach(&endpoint, limits.start)))?
             .map_err(|error| unreachable(innermost(&error)))?;
         let client = WorkerClient::new(channel)
             .max_decoding_message_size(MESSAGE_LIMIT)
@@ -61,6 +68,7 @@ impl Grpc {
             client,
             runtime,
             limits,
+            interrupt,
         })
     }
 
@@ -74,17 +82,36 @@ impl Grpc {
         F: Future<Output = Result<Response<A>, Status>>,
     {
         let answer = call(self.client.clone(), request.clone());
-        let limit = self.limits.answer;
-        match self
-            .runtime
-            .block_on(async { tokio::time::timeout(limit, answer).await })
-        {
-            Ok(Ok(response)) => Ok(response.into_inner()),
-            Ok(Err(status)) => Err(to_error(name, &status)),
-            Err(_) => Err(CallError::Deadline {
-                seconds: limit.as_secs_f64(),
-            }),
-        }
+        let answer = unless(&self.interrupt, within(self.limits.answer, answer));
+        self.runtime
+            .block_on(answer)??
+            .map(Response::into_inner)
+            .map_err(|status| to_error(name, &status))
+    }
+}
+
+/// Gives up waiting for `answer` after `limit`.
+pub(super) async fn within<T>(
+    limit: Duration,
+    answer: impl Future<Output = T>,
+) -> Result<T, CallError> {
+    let late = |_| CallError::Deadline {
+        seconds: limit.as_secs_f64(),
+    };
+    tokio::time::timeout(limit, answer).await.map_err(late)
+}
+
+/// Gives up waiting for `answer` after an interrupt.
+pub(super) async fn unless<T>(
+    interrupt: &Interrupt,
+    answer: impl Future<Output = T>,
+) -> Result<T, CallError> {
+    tokio::select! {
+        biased;
+        answer = answer => Ok(answer),
+        () = interrupt.requested() => Err(CallError::Lost {
+            reason: "the run was interrupted".into(),
+        }),
     }
 }
 
@@ -157,9 +184,12 @@ impl Contract for Grpc {
     }
 
     fn terminate(&self, request: &TerminateRequest) -> Result<TerminateReply, CallError> {
-        self.call("Terminate", request, async |mut client, request| {
-            client.terminate(request).await
-        })
+        let mut client = self.client.clone();
+        let limit = FAREWELL.min(self.limits.answer);
+        self.runtime
+            .block_on(async { within(limit, client.terminate(*request)).await })?
+            .map(Response::into_inner)
+            .map_err(|status| to_error("Terminate", &status))
     }
 
     fn exchange(&self, _: &ExchangeRequest, _: &mut ExchangeReply) -> Result<(), CallError> {

@@ -1,17 +1,28 @@
 //! Starting worker processes, and making sure that none outlives its master.
 
+use std::cell::RefCell;
 use std::fs::File;
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
+use rustix::process::{Pid, Signal, kill_process_group};
 use tempfile::TempDir;
+
+use super::LastWords;
 
 /// Placeholder for the address in a worker's command.
 const ADDRESS: &str = "{address}";
 
 /// How long a worker may take to end once its input is closed, before it is killed.
 const GRACE: Duration = Duration::from_millis(500);
+
+/// How long a process whose connection was lost may take until the system says how it ended.
+const OBITUARY: Duration = Duration::from_millis(100);
+
+/// Longest path of a Unix socket in bytes.
+const LONGEST_PATH: usize = 107;
 
 /// Lines of error output that are shown when a worker dies.
 const LAST_LINES: usize = 6;
@@ -30,8 +41,21 @@ pub enum LaunchError {
     /// The command is empty.
     #[error("the command is empty; give at least the program")]
     NoProgram,
+    /// The path of the socket is too long.
+    #[error(
+        "the socket {} would have a path of more than {LONGEST_PATH} bytes, the most that the system allows; give \
+         the subsystem a shorter name, or set TMPDIR to a shorter path",
+        path.display()
+    )]
+    PathTooLong {
+        /// The path.
+        path: PathBuf,
+    },
     /// The program cannot run.
-    #[error("cannot start `{command}`: {source}")]
+    #[error(
+        "cannot start `{command}`: {source}; a program without / in its name is searched in PATH, any other path \
+         counts from the current folder"
+    )]
     Spawn {
         /// The command.
         command: String,
@@ -58,11 +82,12 @@ impl Launcher {
     /// Starts `command` for subsystem `name`. `{address}` in it becomes the address to listen on; without the
     /// placeholder, `--listen ADDRESS` is appended.
     pub fn start(&self, name: &str, command: &[String]) -> Result<WorkerProcess, LaunchError> {
-        let address = format!(
-            "unix:{}",
-            self.folder.path().join(format!("{name}.sock")).display()
-        );
         let (program, arguments) = command.split_first().ok_or(LaunchError::NoProgram)?;
+        let socket = self.folder.path().join(format!("{name}.sock"));
+        if socket.as_os_str().len() > LONGEST_PATH {
+            return Err(LaunchError::PathTooLong { path: socket });
+        }
+        let address = format!("unix:{}", socket.display());
         let mut process = Command::new(program);
         process.args(
             arguments
@@ -77,14 +102,17 @@ impl Launcher {
         process
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
-            .stderr(output);
+            .stderr(output)
+            // A group of its own: Ctrl-C at the terminal reaches the master only, which then ends its workers, and a
+            // worker ends together with whatever it has started.
+            .process_group(0);
         die_with_parent(&mut process);
         let child = process.spawn().map_err(|source| LaunchError::Spawn {
             command: command.join(" "),
             source,
         })?;
         Ok(WorkerProcess {
-            child,
+            child: RefCell::new(child),
             address,
             log,
         })
@@ -96,9 +124,8 @@ impl Launcher {
 // `pre_exec` is unsafe because its closure runs between fork and exec; this one makes a single system call.
 #[allow(unsafe_code)]
 fn die_with_parent(command: &mut Command) {
-    use std::os::unix::process::CommandExt;
     let set_signal = || {
-        rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::KILL))
+        rustix::process::set_parent_process_death_signal(Some(Signal::KILL))
             .map_err(std::io::Error::from)
     };
     // SAFETY: the closure neither allocates nor takes locks.
@@ -111,7 +138,7 @@ fn die_with_parent(_: &mut Command) {}
 
 /// A running worker. Dropping it ends it.
 pub struct WorkerProcess {
-    child: Child,
+    child: RefCell<Child>,
     address: String,
     log: PathBuf,
 }
@@ -124,7 +151,7 @@ impl WorkerProcess {
 
     /// Number of the process.
     pub fn id(&self) -> u32 {
-        self.child.id()
+        self.child.borrow().id()
     }
 
     /// The file with its error output.
@@ -133,13 +160,24 @@ impl WorkerProcess {
     }
 
     /// Whether it ended, and how.
-    pub fn ended(&mut self) -> Option<String> {
-        let status = self.child.try_wait().ok().flatten()?;
+    pub fn ended(&self) -> Option<String> {
+        let status = self.child.borrow_mut().try_wait().ok().flatten()?;
         Some(status.to_string())
     }
 
-    /// The last lines of its error output.
-    pub fn last_words(&self) -> String {
+    /// How it ended and what it said last; for a process whose connection was lost, which is about to end.
+    pub fn last_words(&self) -> LastWords {
+        let give_up = Instant::now() + OBITUARY;
+        while self.ended().is_none() && Instant::now() < give_up {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        LastWords {
+            status: self.ended(),
+            error_output: self.error_output(),
+        }
+    }
+
+    fn error_output(&self) -> String {
         let text = std::fs::read(&self.log).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let lines: Vec<&str> = text.lines().collect();
@@ -150,9 +188,9 @@ impl WorkerProcess {
 impl WorkerProcess {
     /// Closes its input, which asks a Linchpin worker to end, and waits for that for a moment.
     pub async fn end(&mut self) {
-        drop(self.child.stdin.take());
+        drop(self.child.get_mut().stdin.take());
         let give_up = Instant::now() + GRACE;
-        while Instant::now() < give_up && matches!(self.child.try_wait(), Ok(None)) {
+        while Instant::now() < give_up && self.ended().is_none() {
             tokio::time::sleep(Duration::from_millis(1)).await;
         }
     }
@@ -160,8 +198,9 @@ impl WorkerProcess {
 
 impl Drop for WorkerProcess {
     fn drop(&mut self) {
-        // Errors here mean that it is gone already.
-        let _ = self.child.kill();
-        let _ = self.child.wait();
+        let child = self.child.get_mut();
+        // Errors here mean that it is gone already, with all that it has started.
+        let _ = kill_process_group(Pid::from_child(child), Signal::KILL);
+        let _ = child.wait();
     }
 }

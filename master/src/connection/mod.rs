@@ -5,6 +5,7 @@
 
 mod direct;
 mod grpc;
+mod last_words;
 mod launch;
 mod stream;
 mod threaded;
@@ -18,8 +19,11 @@ use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
 use linchpin_proto::version::PROTOCOL;
 use tokio::runtime::Runtime;
 
+use crate::interrupt::Interrupt;
+
 pub use direct::Direct;
 pub use grpc::{Grpc, new_runtime};
+pub use last_words::LastWords;
 pub use launch::{LaunchError, Launcher, WorkerProcess};
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
@@ -36,9 +40,9 @@ pub trait Connection: Send {
     /// Waits for the answer to the posted request. `reply` is overwritten.
     fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError>;
 
-    /// What a worker that this master started wrote last to its error output; empty if unknown.
-    fn last_words(&self) -> String {
-        String::new()
+    /// What a worker that this master started left behind when its connection was lost; empty if unknown.
+    fn last_words(&self) -> LastWords {
+        LastWords::default()
     }
 
     /// Which way the exchange takes, for the summary.
@@ -65,12 +69,14 @@ pub struct Way {
     pub limits: TimeLimits,
     /// Drives all streams of a master.
     pub runtime: Arc<Runtime>,
+    /// Ends every wait for the worker.
+    pub interrupt: Interrupt,
 }
 
 /// Connects to the worker at `address` (`http://HOST:PORT` or `unix:/PATH`) and chooses its route: the exchange stream
 /// where the worker serves it, otherwise the unary calls on a thread of its own.
 pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallError> {
-    let grpc = Grpc::connect(address, way.limits, Arc::clone(&way.runtime))?;
+    let grpc = connect_on(Arc::clone(&way.runtime), address, way)?;
     let description = grpc.describe(&v1::DescribeRequest {
         protocol: Some(PROTOCOL),
     })?;
@@ -82,11 +88,15 @@ pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallErro
         address: address.to_owned(),
         reason: error.to_string(),
     })?;
-    let grpc = Grpc::connect(address, way.limits, runtime)?;
+    let grpc = connect_on(runtime, address, way)?;
     Ok(Box::new(Threaded::new(
         Arc::new(UnaryTurns::new(grpc)),
         "unary calls",
     )))
+}
+
+fn connect_on(runtime: Arc<Runtime>, address: &str, way: &Way) -> Result<Grpc, CallError> {
+    Grpc::connect(address, way.limits, runtime, way.interrupt.clone())
 }
 
 fn serves_exchange(description: &v1::DescribeReply, model: Option<&str>) -> bool {
@@ -107,26 +117,40 @@ pub enum StartError {
     #[error(transparent)]
     Launch(#[from] LaunchError),
     /// Its process ended before it answered.
-    #[error("the worker ended before it answered ({status}){}", after_colon(.last_words))]
-    Ended {
-        /// How it ended.
-        status: String,
+    #[error("the worker did not answer{0}")]
+    Ended(LastWords),
+    /// Its process runs, but does not listen.
+    #[error(
+        "the worker was started, but nothing listens at {address} after {seconds} s; its program must listen at the \
+         address that stands in place of {{address}} in the command, or behind --listen at its end; \
+         run.start_timeout gives it more time{last_words}"
+    )]
+    Silent {
+        /// Where it should listen.
+        address: String,
+        /// The time limit.
+        seconds: f64,
         /// Last lines of its error output.
-        last_words: String,
+        last_words: LastWords,
     },
     /// It does not answer.
-    #[error("{0}; is the worker running, and is the address right?")]
+    #[error("{0}{}", advice(.0))]
     Call(#[from] CallError),
     /// The connections of this master cannot be driven.
     #[error("cannot set up the connections: {0}")]
     Runtime(#[from] std::io::Error),
 }
 
-fn after_colon(words: &str) -> String {
-    if words.is_empty() {
-        String::new()
-    } else {
-        format!(": {words}")
+fn advice(error: &CallError) -> &'static str {
+    match error {
+        CallError::Unreachable { .. } => "; is the worker running, and is the address right?",
+        CallError::Deadline { .. } => {
+            "; something listens there but keeps silent: is it a worker of the contract linchpin.v1, and is it busy?"
+        }
+        CallError::Lost { .. } | CallError::Unimplemented { .. } => {
+            "; is it a worker of the contract linchpin.v1?"
+        }
+        CallError::Failed(_) => "",
     }
 }
 
@@ -140,7 +164,7 @@ pub fn start(
     command: &[String],
     way: &Way,
 ) -> Result<Box<dyn Connection>, StartError> {
-    let mut process = launcher.start(name, command)?;
+    let process = launcher.start(name, command)?;
     let give_up = Instant::now() + way.limits.start;
     loop {
         let attempt = Way {
@@ -151,11 +175,8 @@ pub fn start(
             ..way.clone()
         };
         let reached = connect(process.address(), &attempt);
-        if let Some(status) = process.ended() {
-            return Err(StartError::Ended {
-                status,
-                last_words: process.last_words(),
-            });
+        if process.ended().is_some() {
+            return Err(StartError::Ended(process.last_words()));
         }
         match reached {
             Ok(connection) => {
@@ -164,6 +185,13 @@ pub fn start(
                 return Ok(Box::new(Owned { connection, ending }));
             }
             Err(CallError::Unreachable { .. }) if Instant::now() < give_up => {}
+            Err(CallError::Unreachable { address, .. }) => {
+                return Err(StartError::Silent {
+                    address,
+                    seconds: way.limits.start.as_secs_f64(),
+                    last_words: process.last_words(),
+                });
+            }
             Err(error) => return Err(error.into()),
         }
     }
@@ -202,7 +230,7 @@ impl Connection for Owned {
         self.connection.collect(reply)
     }
 
-    fn last_words(&self) -> String {
+    fn last_words(&self) -> LastWords {
         self.ending.process.last_words()
     }
 

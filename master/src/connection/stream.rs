@@ -8,6 +8,7 @@ use tokio::task::JoinHandle;
 use tokio_stream::wrappers::UnboundedReceiverStream;
 use tonic::{Response, Status, Streaming};
 
+use super::grpc::{unless, within};
 use super::{Connection, Grpc};
 
 /// One bidirectional stream for the whole run.
@@ -73,14 +74,8 @@ impl Connection for ExchangeStream {
     fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError> {
         let limit = self.grpc.limits.answer;
         let replies = std::mem::replace(&mut self.replies, Replies::Broken);
-        let answer = async { tokio::time::timeout(limit, next(replies)).await };
-        let (answer, replies) =
-            self.grpc
-                .runtime
-                .block_on(answer)
-                .map_err(|_| CallError::Deadline {
-                    seconds: limit.as_secs_f64(),
-                })??;
+        let answer = unless(&self.grpc.interrupt, within(limit, next(replies)));
+        let (answer, replies) = self.grpc.runtime.block_on(answer)???;
         self.replies = Replies::Open(replies);
         *reply = answer;
         match reply.failure.take() {

@@ -39,15 +39,8 @@ impl<C: Contract> UnaryTurns<C> {
         reply: &mut ExchangeReply,
     ) -> Result<(), CallError> {
         self.go_back(place, instance)?;
-        let step = StepRequest {
-            instance,
-            sequence: place.next(),
-            t: advance.t,
-            step: advance.step,
-            signals: advance.signals.clone(),
-            outputs: OutputSet::All.into(),
-        };
-        let answer = self.calls.step(&step)?;
+        let (t, length) = (advance.t, advance.step);
+        let answer = self.step_over(place, instance, (t, length), &advance.signals, OutputSet::All)?;
         add(&mut reply.work, answer.work);
         reply.advanced = answer.outputs;
         self.commit(place, instance)
@@ -63,16 +56,9 @@ impl<C: Contract> UnaryTurns<C> {
         if predict.step == 0.0 {
             return self.evaluate(place, instance, predict, reply);
         }
-        let step = StepRequest {
-            instance,
-            sequence: place.next(),
-            t: predict.t,
-            step: predict.step,
-            signals: predict.signals.clone(),
-            outputs: OutputSet::Coupling.into(),
-        };
-        place.moved = true;
-        let answer = self.calls.step(&step)?;
+        let (t, length) = (predict.t, predict.step);
+        let outputs = OutputSet::Coupling;
+        let answer = self.step_over(place, instance, (t, length), &predict.signals, outputs)?;
         add(&mut reply.work, answer.work);
         reply.predicted = answer.outputs;
         if predict.perturbed.is_empty() {
@@ -91,6 +77,26 @@ impl<C: Contract> UnaryTurns<C> {
         add(&mut reply.work, answer.work);
         reply.perturbed = answer.outputs;
         Ok(())
+    }
+
+    fn step_over(
+        &self,
+        place: &mut Place,
+        instance: u64,
+        (t, step): (f64, f64),
+        signals: &[Signal],
+        outputs: OutputSet,
+    ) -> Result<StepReply, CallError> {
+        place.moved = true;
+        let request = StepRequest {
+            instance,
+            sequence: place.next(),
+            t,
+            step,
+            signals: signals.to_vec(),
+            outputs: outputs.into(),
+        };
+        self.calls.step(&request)
     }
 
     fn evaluate(

@@ -101,7 +101,7 @@ fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem
     let connect_one = |subsystem: &scene::Subsystem| {
         let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
             subsystem: subsystem.name.clone(),
-            source,
+            source: Box::new(source),
         })?;
         Ok(Subsystem::new(&subsystem.name, connection))
     };
@@ -190,7 +190,7 @@ fn refuse_subsystem(scene: &Scene, number: usize, error: CallError) -> RunError 
             subsystem: name.clone(),
             t: scene.t_start,
             step: 0.0,
-            source: error,
+            source: Box::new(error),
             last_words: String::new(),
         },
     }

@@ -6,7 +6,7 @@ use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;
 
-use crate::connection::Connection;
+use crate::connection::{Connection, LastWords};
 use crate::error::RunError;
 use crate::time::MacroStep;
 
@@ -232,16 +232,16 @@ impl Subsystem {
         }
     }
 
-    fn failed(&self, source: CallError, step: MacroStep) -> RunError {
+    pub(super) fn failed(&self, source: CallError, step: MacroStep) -> RunError {
         let last_words = match source {
             CallError::Lost { .. } | CallError::Deadline { .. } => self.connection.last_words(),
-            _ => String::new(),
+            _ => LastWords::default(),
         };
         RunError::Worker {
             subsystem: self.name.clone(),
             t: step.start,
             step: step.length,
-            source,
+            source: Box::new(source),
             last_words,
         }
     }

@@ -21,7 +21,7 @@ pub(super) fn model_of(
         subsystem: written.name.clone(),
         t: scene.t_start,
         step: 0.0,
-        source,
+        source: Box::new(source),
         last_words: String::new(),
     })?;
     version::negotiate(description.protocol.as_ref()).map_err(|source| RunError::Incompatible {

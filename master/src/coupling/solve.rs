@@ -54,8 +54,7 @@ impl LinearSolver {
                 .map(|row| matrix[(row, column)].abs())
                 .fold(0.0, f64::max);
             let pivot = self.matrix[(column, column)].abs();
-            // Written so that a pivot that is not a number counts as none.
-            if !(pivot > PIVOT_ROUNDING * largest) {
+            if pivot.is_nan() || pivot <= PIVOT_ROUNDING * largest {
                 return Err(SingularColumn(column));
             }
         }

@@ -34,14 +34,12 @@ impl Defect {
         let scale = predicted.abs().max(shift.abs());
         let missing = (found - (predicted + shift)).abs() - ROUNDING * extent;
         let defect = if missing <= 0.0 { 0.0 } else { missing / scale };
-        // Written so that a defect that is not a number counts as the largest.
-        if !(defect <= self.largest) {
-            self.largest = if defect.is_nan() {
-                f64::INFINITY
-            } else {
-                defect
-            };
-        }
+        let defect = if defect.is_nan() {
+            f64::INFINITY
+        } else {
+            defect
+        };
+        self.largest = self.largest.max(defect);
     }
 
     /// The verdict on the worst row.

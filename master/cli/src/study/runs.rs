@@ -67,10 +67,10 @@ pub fn divergence(error: RunError) -> Result<String, RunError> {
         | RunError::Grown { .. }
         | RunError::NotFinite { .. }
         | RunError::Singular { .. } => true,
-        RunError::Worker {
-            source: CallError::Failed(failure),
-            ..
-        } => failure.severity() == Severity::Recoverable,
+        RunError::Worker { source, .. } => matches!(
+            &**source,
+            CallError::Failed(failure) if failure.severity() == Severity::Recoverable
+        ),
         _ => false,
     };
     if has_diverged {
