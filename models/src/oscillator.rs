@@ -56,8 +56,8 @@ impl Model for Oscillator {
                 let fixed = Fixed::new(setup.positive_option("step")?);
                 Ok(Box::new(Run::new(equation, start, fixed)))
             }
-            other => Err(SetupError::Unknown {
-                field: format!("solver.kind = \"{other}\""),
+            other => Err(SetupError::UnknownSolver {
+                kind: other.to_owned(),
                 known: description::SOLVERS.join(", "),
             }),
         }

@@ -30,6 +30,14 @@ pub enum SetupError {
         /// Names that are allowed, separated by commas.
         known: String,
     },
+    /// A solver that the model does not have.
+    #[error("this model has no solver \"{kind}\"; it has: {known}")]
+    UnknownSolver {
+        /// The kind asked for.
+        kind: String,
+        /// Kinds that there are, separated by commas.
+        known: String,
+    },
     /// Not of the right type.
     #[error("{field} must be {expected}")]
     WrongType {
@@ -58,6 +66,7 @@ impl SetupError {
             | Self::Unknown { field, .. }
             | Self::WrongType { field, .. }
             | Self::OutOfRange { field, .. } => field,
+            Self::UnknownSolver { .. } => "solver.kind",
         }
     }
 }
@@ -93,6 +102,13 @@ impl Setup {
         solver: Option<v1::Solver>,
         t_start: f64,
     ) -> Result<Self, SetupError> {
+        if !t_start.is_finite() {
+            return Err(SetupError::OutOfRange {
+                field: "t_start".to_owned(),
+                value: t_start,
+                allowed: "it must be a finite number",
+            });
+        }
         complete("parameters", &mut parameters, &model.parameters)?;
         let mut setup = Self {
             parameters,
@@ -115,8 +131,8 @@ impl Setup {
             setup.options = solver.options;
             complete("solver", &mut setup.options, &kind.options)?;
         } else if !model.solvers.is_empty() || !solver.kind.is_empty() {
-            return Err(SetupError::Unknown {
-                field: format!("solver.kind = \"{}\"", solver.kind),
+            return Err(SetupError::UnknownSolver {
+                kind: solver.kind,
                 known: names(model.solvers.iter().map(|kind| &kind.name)),
             });
         }
@@ -185,12 +201,16 @@ fn complete(
         }
     }
     for parameter in known {
-        if let (Some(default), false) = (parameter.default, values.contains_key(&parameter.name)) {
-            let value = v1::Value {
-                kind: Some(Kind::Number(default)),
-            };
-            values.insert(parameter.name.clone(), value);
+        if values.contains_key(&parameter.name) {
+            continue;
         }
+        let default = parameter.default.ok_or_else(|| SetupError::Missing {
+            field: format!("{table}.{}", parameter.name),
+        })?;
+        let value = v1::Value {
+            kind: Some(Kind::Number(default)),
+        };
+        values.insert(parameter.name.clone(), value);
     }
     Ok(())
 }
@@ -235,5 +255,9 @@ fn in_range(
 }
 
 fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
-    names.map(String::as_str).collect::<Vec<_>>().join(", ")
+    let names: Vec<&str> = names.map(String::as_str).collect();
+    if names.is_empty() {
+        return "none".into();
+    }
+    names.join(", ")
 }

@@ -134,7 +134,7 @@ pub enum StartError {
         last_words: LastWords,
     },
     /// It does not answer.
-    #[error("{0}{}", advice(.0))]
+    #[error("{0}{advice}", advice = advice(.0))]
     Call(#[from] CallError),
     /// The connections of this master cannot be driven.
     #[error("cannot set up the connections: {0}")]

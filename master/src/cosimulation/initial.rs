@@ -98,12 +98,7 @@ fn solve_accelerations(
     let (jacobian, solution) = system.level_equation(Level::Acceleration);
     LinearSolver::new(rows)
         .solve(jacobian, solution)
-        .map_err(|SingularColumn(row)| RunError::Singular {
-            joint: layout.joints[row].name.clone(),
-            level: Level::Acceleration.name(),
-            t,
-            step: 0.0,
-        })?;
+        .map_err(|SingularColumn(row)| refuse_redundant(scene, row))?;
     Ok(solution.to_vec())
 }
 
@@ -159,6 +154,14 @@ fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
         }
     }
     Ok(())
+}
+
+fn refuse_redundant(scene: &Scene, joint: usize) -> RunError {
+    let key = format!("joint.{}", scene.joints[joint].name);
+    let message = "nothing determines the multiplier of this joint at the start: another joint demands the same \
+                   already, or no coupled body reacts to its load";
+    let help = "remove the redundant joint, or check the markers at its ends";
+    scene.error(&key, message, Some(help.into())).into()
 }
 
 fn ask_for_multiplier(scene: &Scene, joint: usize) -> RunError {

@@ -1,6 +1,7 @@
 //! A run from start to end: the macro step, told by one function.
 
 mod initial;
+mod refusal;
 mod start;
 mod subsystem;
 mod tie;

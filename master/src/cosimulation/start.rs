@@ -1,9 +1,9 @@
 //! From a scene to a co-simulation at its first macro point.
 
-use linchpin_proto::contract::CallError;
 use linchpin_proto::v1::{self, value::Kind};
 
 use super::initial::{InitialState, at_rest};
+use super::refusal::{Refusals, refuse_setup};
 use super::tie::{mark, model_of, recorded_outputs, refuse_marker};
 use super::{CoSimulation, Parts, Scheme, Subsystem};
 use crate::connection::{Connection, StartError};
@@ -46,12 +46,16 @@ impl CoSimulation {
         let joints = mark(scene, &models)?;
         let layout = layout_of(scene, &joints)?;
         let recorded = recorded_outputs(scene, &models, &layout.outputs)?;
+        let mut refusals = Refusals::default();
         for (number, subsystem) in subsystems.iter_mut().enumerate() {
             let request =
                 initialize_request(scene, number, &models, &joints, &layout, &recorded[number]);
-            let initialized = subsystem.initialize(request);
-            initialized.map_err(|error| refuse_subsystem(scene, number, error))?;
+            if let Err(error) = subsystem.initialize(request) {
+                let model = &models[number];
+                refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
+            }
         }
+        refusals.finish()?;
         let mut parts = Parts { subsystems, layout };
         let is_spring = matches!(
             scene.coupling.method,
@@ -171,29 +175,6 @@ fn spring_parameters(
             )
         })
         .collect()
-}
-
-fn refuse_subsystem(scene: &Scene, number: usize, error: CallError) -> RunError {
-    let name = &scene.subsystems[number].name;
-    match &error {
-        CallError::Failed(failure) if failure.severity() == v1::Severity::Misuse => {
-            let field = failure.field.as_deref().unwrap_or_default();
-            scene
-                .error(
-                    &format!("subsystem.{name}.{field}"),
-                    failure.message.clone(),
-                    None,
-                )
-                .into()
-        }
-        _ => RunError::Worker {
-            subsystem: name.clone(),
-            t: scene.t_start,
-            step: 0.0,
-            source: Box::new(error),
-            last_words: String::new(),
-        },
-    }
 }
 
 /// Makes the method of the scene and lets it look ahead over the first macro step.

@@ -3,7 +3,7 @@
 use linchpin_proto::v1;
 use linchpin_proto::version;
 
-use super::Subsystem;
+use super::{Subsystem, at_start};
 use crate::coupling::layout::{Lack, MarkedJoint, MarkerLacks};
 use crate::error::RunError;
 use crate::joint::Level;
@@ -17,13 +17,9 @@ pub(super) fn model_of(
     subsystem: &Subsystem,
 ) -> Result<v1::Model, RunError> {
     let written = &scene.subsystems[number];
-    let description = subsystem.describe().map_err(|source| RunError::Worker {
-        subsystem: written.name.clone(),
-        t: scene.t_start,
-        step: 0.0,
-        source: Box::new(source),
-        last_words: String::new(),
-    })?;
+    let description = subsystem
+        .describe()
+        .map_err(|error| subsystem.failed(error, at_start(scene.t_start)))?;
     version::negotiate(description.protocol.as_ref()).map_err(|source| RunError::Incompatible {
         subsystem: written.name.clone(),
         source,

@@ -73,6 +73,11 @@ impl SceneErrors {
         Self { errors }
     }
 
+    /// These mistakes and more.
+    pub(crate) fn and(self, more: Self) -> Self {
+        Self::new(self.into_iter().chain(more).collect())
+    }
+
     /// The mistakes.
     pub fn iter(&self) -> std::slice::Iter<'_, SceneError> {
         self.errors.iter()

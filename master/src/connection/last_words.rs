@@ -1,0 +1,28 @@
+//! What a worker process left behind when it failed.
+
+use std::fmt;
+
+/// How a worker process ended and what it said before.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct LastWords {
+    /// How it ended; absent if it runs, or if the master did not start it.
+    pub status: Option<String>,
+    /// Last lines of its error output; empty if there are none.
+    pub error_output: String,
+}
+
+/// To be put behind an error message.
+impl fmt::Display for LastWords {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(status) = &self.status {
+            write!(f, "; its process has ended ({status})")?;
+        }
+        if self.error_output.is_empty() {
+            return Ok(());
+        }
+        f.write_str("\n  last error output of the worker:")?;
+        self.error_output
+            .lines()
+            .try_for_each(|line| write!(f, "\n    {line}"))
+    }
+}
