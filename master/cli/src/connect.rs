@@ -3,6 +3,7 @@
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
+use linchpin_master::Interrupt;
 use linchpin_master::connection::{
     Connection, Direct, Launcher, StartError, Threaded, TimeLimits, UnaryTurns, Way, connect,
     new_runtime, start,
@@ -26,6 +27,7 @@ pub enum Place {
 /// Makes the connections of one run. Workers that were started end with their connections.
 pub struct Connector {
     place: Place,
+    interrupt: Interrupt,
     runtime: OnceLock<Arc<Runtime>>,
     launcher: OnceLock<Launcher>,
 }
@@ -35,9 +37,20 @@ impl Connector {
     pub fn new(place: Place) -> Self {
         Self {
             place,
+            interrupt: Interrupt::default(),
             runtime: OnceLock::new(),
             launcher: OnceLock::new(),
         }
+    }
+
+    /// Its runs stop at the request of `interrupt`.
+    pub fn stopped_by(self, interrupt: Interrupt) -> Self {
+        Self { interrupt, ..self }
+    }
+
+    /// What stops its runs.
+    pub fn interrupt(&self) -> &Interrupt {
+        &self.interrupt
     }
 
     /// The connection to the worker of `subsystem`.
@@ -94,6 +107,7 @@ impl Connector {
                 answer: Duration::from_secs_f64(scene.run.deadline),
             },
             runtime: self.runtime()?,
+            interrupt: self.interrupt.clone(),
         })
     }
 

@@ -5,6 +5,7 @@
 //! * [`closed_form`]: the exact solution of scenes that have one;
 //! * [`error_norm`]: errors of a run;
 //! * [`study`]: many runs of one scene with other settings;
+//! * [`interrupt`]: Ctrl-C;
 //! * [`plot`]: pictures.
 
 pub mod closed_form;
@@ -12,6 +13,7 @@ pub mod commands;
 pub mod connect;
 pub mod diagnostics;
 pub mod error_norm;
+pub mod interrupt;
 pub mod plot;
 pub mod results;
 pub mod simulate;

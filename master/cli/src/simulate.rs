@@ -35,6 +35,10 @@ pub enum SimulateError<E> {
 
 /// Runs `scene` to its end. The first and the last macro point are always recorded, and every
 /// `output.every`-th between them.
+///
+/// # Errors
+/// What stopped the co-simulation, or the recorder's own error; [`RunError::Interrupted`] at the request of the
+/// connector's interrupt.
 pub fn simulate<R: Recorder>(
     scene: &Scene,
     connector: &Connector,
@@ -42,7 +46,14 @@ pub fn simulate<R: Recorder>(
     recorder: &mut R,
 ) -> Result<Statistics, SimulateError<R::Error>> {
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
-    let mut simulation = CoSimulation::start(scene, &mut connect, options)?;
+    let interrupt = connector.interrupt();
+    // An interrupt makes calls under way fail, and it is the reason that counts.
+    let stopped = |t, error| match interrupt.is_requested() {
+        true => RunError::Interrupted { t },
+        false => error,
+    };
+    let mut simulation = CoSimulation::start(scene, &mut connect, options)
+        .map_err(|error| stopped(scene.t_start, error))?;
     let all = simulation.grid().len();
     recorder
         .begin(simulation.row())
@@ -50,7 +61,10 @@ pub fn simulate<R: Recorder>(
     recorder
         .record(simulation.row())
         .map_err(SimulateError::Record)?;
-    while simulation.macro_step()? {
+    while simulation
+        .macro_step()
+        .map_err(|error| stopped(simulation.t(), error))?
+    {
         let done = simulation.steps_done();
         if done % scene.output.every == 0 || done == all {
             recorder
@@ -58,6 +72,10 @@ pub fn simulate<R: Recorder>(
                 .map_err(SimulateError::Record)?;
         }
         recorder.progress(done, all, simulation.t());
+        if interrupt.is_requested() && done < all {
+            let t = simulation.t();
+            return Err(RunError::Interrupted { t }.into());
+        }
     }
     Ok(simulation.statistics())
 }

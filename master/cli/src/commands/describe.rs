@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use linchpin_master::Interrupt;
 use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, DescribeReply, Model, Variable};
@@ -41,7 +42,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         address: arguments.address.clone(),
         source: linchpin_master::connection::StartError::Call(source),
     };
-    let worker = Grpc::connect(&arguments.address, limits, new_runtime()?).map_err(failed)?;
+    let worker = Grpc::connect(
+        &arguments.address,
+        limits,
+        new_runtime()?,
+        Interrupt::default(),
+    )
+    .map_err(failed)?;
     let request = v1::DescribeRequest {
         protocol: Some(PROTOCOL),
     };
