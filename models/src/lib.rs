@@ -2,11 +2,12 @@
 //!
 //! * [`oscillator`]: one mass on a spring and a damper;
 //! * [`integrators`]: time integration that several models share;
-//! * [`mod@reference`]: closed forms that coupled runs are compared with.
+//! * [`mod@reference`]: solutions that coupled runs are compared with.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod integrators;
+mod mechanics;
 pub mod oscillator;
 pub mod reference;
 
@@ -14,5 +15,7 @@ use linchpin_worker::Model;
 
 /// All built-in models.
 pub fn models() -> Vec<Box<dyn Model>> {
-    vec![Box::new(oscillator::Oscillator)]
+    vec![
+        Box::new(oscillator::Oscillator),
+    ]
 }

@@ -4,25 +4,20 @@
 //! `f` is an applied force; `x_p`, `v_p` are the motion of a partner behind a spring `k_p` and a damper `d_p`, for
 //! force/displacement coupling.
 
-mod adaptive;
 mod description;
 mod equation;
 mod exact;
-mod fixed;
 mod parameters;
 mod propagator;
-mod run;
 
 use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Model, Setup, Subsystem};
 
-use crate::integrators::radau::Tolerances;
-use adaptive::Adaptive;
+use crate::mechanics::run::Run;
+use crate::mechanics::solvers;
 use equation::Equation;
 use exact::Exact;
-use fixed::Fixed;
-use run::Run;
 
 pub use parameters::{OscillatorParameters, PartnerSpring};
 
@@ -41,25 +36,7 @@ impl Model for Oscillator {
         let start = [own.x0, own.v0];
         match setup.solver() {
             description::EXACT => Ok(Box::new(Run::new(equation, start, Exact::default()))),
-            description::RADAU5 => {
-                let tolerances = Tolerances {
-                    relative: setup.positive_option("rtol")?,
-                    absolute: setup.positive_option("atol")?,
-                };
-                Ok(Box::new(Run::new(
-                    equation,
-                    start,
-                    Adaptive::new(tolerances),
-                )))
-            }
-            description::RK4 => {
-                let fixed = Fixed::new(setup.positive_option("step")?);
-                Ok(Box::new(Run::new(equation, start, fixed)))
-            }
-            other => Err(SetupError::UnknownSolver {
-                kind: other.to_owned(),
-                known: description::SOLVERS.join(", "),
-            }),
+            _ => solvers::start(equation, start, setup),
         }
     }
 }

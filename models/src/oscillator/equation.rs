@@ -4,9 +4,12 @@ use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_worker::Inputs;
 use nalgebra::DMatrix;
 
-use super::description::{F, PARTNER_V, PARTNER_X};
+use super::description::{A, F, PARTNER_V, PARTNER_X, V, X};
 use super::parameters::{OscillatorParameters, PartnerSpring};
-use crate::integrators::Ode;
+use crate::mechanics::equation::EquationOfMotion;
+
+/// Position (m) and velocity (m/s).
+pub type State = [f64; 2];
 
 /// `m v' = u - c x - d v` with the springs and dampers to ground and to the partner taken together,
 /// `u = f + k_p x_p + d_p v_p`.
@@ -38,12 +41,6 @@ impl Equation {
         f + self.partner.stiffness * partner_x + self.partner.damping * partner_v
     }
 
-    /// `u` at `tau` seconds after the start of the step.
-    pub fn force_at(&self, inputs: &Inputs, tau: f64) -> f64 {
-        let value = |input| inputs.value(input, tau);
-        self.force(value(F), value(PARTNER_X), value(PARTNER_V))
-    }
-
     /// Coefficients of `u(length s) = u_0 + u_1 s + u_2 s^2 + ...`.
     pub fn force_powers(&self, inputs: &Inputs, length: f64) -> [f64; MAX_NODES] {
         let powers = |input| inputs.polynomial(input).powers(length);
@@ -52,31 +49,30 @@ impl Equation {
     }
 }
 
-/// The equation under given inputs, as integrators want it: `y = (x, v)`.
-#[derive(Debug, Clone, Copy)]
-pub struct Driven<'a> {
-    pub equation: &'a Equation,
-    pub inputs: &'a Inputs,
-}
+impl EquationOfMotion for Equation {
+    type State = State;
+    type Inputs = [f64; 3];
 
-impl Ode for Driven<'_> {
-    fn derivative(&self, tau: f64, y: &[f64], dy: &mut [f64]) {
-        let u = self.equation.force_at(self.inputs, tau);
-        dy[0] = y[1];
-        dy[1] = self.equation.acceleration(y[0], y[1], u);
+    const STATE_NAMES: &'static [&'static str] = &["x", "v"];
+
+    fn rate(&self, &[x, v]: &State, &[f, partner_x, partner_v]: &[f64; 3]) -> State {
+        let u = self.force(f, partner_x, partner_v);
+        [v, self.acceleration(x, v, u)]
     }
 
-    fn jacobian(&self, _tau: f64, _y: &[f64], jacobian: &mut DMatrix<f64>) -> bool {
-        let Equation {
-            mass,
-            stiffness,
-            damping,
-            ..
-        } = *self.equation;
+    fn jacobian(&self, _: &State, _: &[f64; 3], jacobian: &mut DMatrix<f64>) {
         jacobian[(0, 0)] = 0.0;
         jacobian[(0, 1)] = 1.0;
-        jacobian[(1, 0)] = -stiffness / mass;
-        jacobian[(1, 1)] = -damping / mass;
-        true
+        jacobian[(1, 0)] = -self.stiffness / self.mass;
+        jacobian[(1, 1)] = -self.damping / self.mass;
+    }
+
+    fn output(&self, state: &State, inputs: &[f64; 3], output: usize) -> Option<f64> {
+        match output {
+            X => Some(state[0]),
+            V => Some(state[1]),
+            A => Some(self.rate(state, inputs)[1]),
+            _ => None,
+        }
     }
 }

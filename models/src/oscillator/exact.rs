@@ -3,9 +3,9 @@
 use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_worker::{Inputs, Interval, StepFailure};
 
-use super::equation::Equation;
+use super::equation::{Equation, State};
 use super::propagator::Propagator;
-use super::run::{Solver, State};
+use crate::mechanics::run::Solver;
 
 /// The matrix exponential of the equation of motion, kept for the two step lengths used last: a run may end with
 /// a shorter step, and a step that is divided gives two.
@@ -74,7 +74,7 @@ impl Exact {
     }
 }
 
-impl Solver for Exact {
+impl Solver<Equation> for Exact {
     fn step(
         &mut self,
         equation: &Equation,

@@ -2,8 +2,8 @@
 
 use linchpin_worker::{Inputs, Interval, StepFailure};
 
-use super::equation::{Driven, Equation};
-use super::run::{Solver, State};
+use super::equation::{Driven, EquationOfMotion};
+use super::run::Solver;
 use crate::integrators::IntegrationError;
 use crate::integrators::radau::{Radau, Tolerances};
 
@@ -15,39 +15,40 @@ pub struct Adaptive {
 }
 
 impl Adaptive {
-    pub fn new(tolerances: Tolerances) -> Self {
+    /// For `dimension` states.
+    pub fn new(dimension: usize, tolerances: Tolerances) -> Self {
         Self {
-            radau: Radau::new(2, tolerances),
+            radau: Radau::new(dimension, tolerances),
             tolerances,
         }
     }
 }
 
-impl Solver for Adaptive {
+impl<E: EquationOfMotion> Solver<E> for Adaptive {
     fn step(
         &mut self,
-        equation: &Equation,
+        equation: &E,
         interval: Interval,
         inputs: &Inputs,
-        state: &mut State,
+        state: &mut E::State,
     ) -> Result<(), StepFailure> {
         let ode = Driven { equation, inputs };
         self.radau
-            .integrate(&ode, interval.length, state)
+            .integrate(&ode, interval.length, state.as_mut())
             .map_err(|error| at(interval, error))
     }
 
     fn perturbed_step(
         &mut self,
-        equation: &Equation,
+        equation: &E,
         interval: Interval,
         inputs: &Inputs,
-        state: &mut State,
+        state: &mut E::State,
     ) -> Result<(), StepFailure> {
         let ode = Driven { equation, inputs };
-        if self.radau.has_recorded(interval.length, state) {
+        if self.radau.has_recorded(interval.length, state.as_ref()) {
             self.radau
-                .replay(&ode, state)
+                .replay(&ode, state.as_mut())
                 .map_err(|error| at(interval, error))
         } else {
             self.step(equation, interval, inputs, state)
@@ -66,8 +67,9 @@ impl Solver for Adaptive {
         self.radau.steps()
     }
 
-    fn tolerance(&self, state: &State) -> Option<f64> {
+    fn tolerance(&self, state: &E::State) -> Option<f64> {
         let largest = state
+            .as_ref()
             .iter()
             .fold(0.0, |largest: f64, value| largest.max(value.abs()));
         Some(self.tolerances.at(largest))

@@ -2,8 +2,8 @@
 
 use linchpin_worker::{Inputs, Interval, StepFailure};
 
-use super::equation::{Driven, Equation};
-use super::run::{Solver, State};
+use super::equation::{Driven, EquationOfMotion};
+use super::run::Solver;
 use crate::integrators::Rk4;
 
 /// More parts than this in one macro step are taken for a mistake in `step`.
@@ -22,22 +22,23 @@ pub struct Fixed {
 }
 
 impl Fixed {
-    pub fn new(step: f64) -> Self {
+    /// For `dimension` states.
+    pub fn new(dimension: usize, step: f64) -> Self {
         Self {
             step,
-            rk4: Rk4::new(2),
+            rk4: Rk4::new(dimension),
             steps: 0,
         }
     }
 }
 
-impl Solver for Fixed {
+impl<E: EquationOfMotion> Solver<E> for Fixed {
     fn step(
         &mut self,
-        equation: &Equation,
+        equation: &E,
         interval: Interval,
         inputs: &Inputs,
-        state: &mut State,
+        state: &mut E::State,
     ) -> Result<(), StepFailure> {
         let parts = (interval.length / self.step - ROUNDING).ceil().max(1.0);
         if parts > MOST_PARTS {
@@ -51,8 +52,9 @@ impl Solver for Fixed {
             });
         }
         let parts = parts as u64;
+        let ode = Driven { equation, inputs };
         self.rk4
-            .integrate(&Driven { equation, inputs }, interval.length, parts, state);
+            .integrate(&ode, interval.length, parts, state.as_mut());
         self.steps += parts;
         Ok(())
     }

@@ -1,31 +1,27 @@
-//! The oscillator as a subsystem: state, outputs and snapshots are the same for all solvers.
+//! An equation of motion as a subsystem: state, outputs and snapshots are the same for all solvers.
 
 use linchpin_worker::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
 
-use super::description::{A, F, PARTNER_V, PARTNER_X, V, X};
-use super::equation::Equation;
+use super::equation::{EquationOfMotion, Vector};
 
-/// Position (m) and velocity (m/s).
-pub type State = [f64; 2];
-
-/// How the equation of motion is advanced in time.
-pub trait Solver: Send {
+/// How an equation of motion is advanced in time.
+pub trait Solver<E: EquationOfMotion>: Send {
     /// Advances `state` over `interval`.
     fn step(
         &mut self,
-        equation: &Equation,
+        equation: &E,
         interval: Interval,
         inputs: &Inputs,
-        state: &mut State,
+        state: &mut E::State,
     ) -> Result<(), StepFailure>;
 
     /// Advances `state` with the internal steps of the last [`Solver::step`].
     fn perturbed_step(
         &mut self,
-        equation: &Equation,
+        equation: &E,
         interval: Interval,
         inputs: &Inputs,
-        state: &mut State,
+        state: &mut E::State,
     ) -> Result<(), StepFailure> {
         self.step(equation, interval, inputs, state)
     }
@@ -42,33 +38,38 @@ pub trait Solver: Send {
     fn internal_steps(&self) -> u64;
 
     /// Error tolerance at a state.
-    fn tolerance(&self, _state: &State) -> Option<f64> {
+    fn tolerance(&self, _state: &E::State) -> Option<f64> {
         None
     }
 }
 
-/// One oscillator in motion.
-pub struct Run<S> {
-    equation: Equation,
-    state: State,
+/// One subsystem in motion.
+pub struct Run<E: EquationOfMotion, S> {
+    equation: E,
+    state: E::State,
     solver: S,
+    /// What a snapshot holds: the state, then the solver's memory.
+    kept: Vec<f64>,
 }
 
-impl<S: Solver> Run<S> {
-    pub fn new(equation: Equation, start: State, solver: S) -> Self {
+impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
+    pub fn new(equation: E, start: E::State, solver: S) -> Self {
         Self {
             equation,
             state: start,
             solver,
+            kept: vec![0.0; E::STATE_NAMES.len() + 1],
         }
     }
 
     /// A step that fails leaves the state as it was.
-    fn commit(&mut self, reached: State, interval: Interval) -> Result<(), StepFailure> {
-        if !reached.iter().all(|value| value.is_finite()) {
+    fn commit(&mut self, mut reached: E::State, interval: Interval) -> Result<(), StepFailure> {
+        self.equation.settle(&mut reached);
+        let mut values = reached.as_ref().iter().zip(E::STATE_NAMES);
+        if let Some((value, name)) = values.find(|(value, _)| !value.is_finite()) {
             return Err(StepFailure::Recoverable {
                 t: interval.end(),
-                message: format!("the state became x = {}, v = {}", reached[0], reached[1]),
+                message: format!("the state {name} became {value}"),
             });
         }
         self.state = reached;
@@ -76,7 +77,7 @@ impl<S: Solver> Run<S> {
     }
 }
 
-impl<S: Solver> Subsystem for Run<S> {
+impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         let mut reached = self.state;
         self.solver
@@ -98,38 +99,28 @@ impl<S: Solver> Subsystem for Run<S> {
         wanted: &[usize],
         values: &mut [f64],
     ) -> Result<(), StepFailure> {
-        let [x, v] = self.state;
+        let mut u = E::Inputs::ZERO;
+        u.as_mut().copy_from_slice(inputs);
         for (value, &output) in values.iter_mut().zip(wanted) {
-            *value = match output {
-                X => x,
-                V => v,
-                A => {
-                    let u = self
-                        .equation
-                        .force(inputs[F], inputs[PARTNER_X], inputs[PARTNER_V]);
-                    self.equation.acceleration(x, v, u)
-                }
-                unknown => {
-                    return Err(StepFailure::Fatal {
-                        message: format!("the oscillator has the outputs 0 to {A}, not {unknown}"),
-                    });
-                }
-            };
+            let computed = self.equation.output(&self.state, &u, output);
+            *value = computed.ok_or_else(|| StepFailure::Fatal {
+                message: format!("the model has no output number {output}"),
+            })?;
         }
         Ok(())
     }
 
     fn snapshot(&self, into: &mut Snapshot) {
-        let [x, v] = self.state;
-        into.put(&[x, v, self.solver.memory()]);
+        into.put(self.state.as_ref());
+        into.put(&[self.solver.memory()]);
     }
 
     fn restore(&mut self, from: &Snapshot) -> Result<(), StepFailure> {
-        let mut kept = [0.0; 3];
-        from.get(&mut kept)?;
-        let [x, v, memory] = kept;
-        self.state = [x, v];
-        self.solver.recall(memory);
+        from.get(&mut self.kept)?;
+        if let [state @ .., memory] = &self.kept[..] {
+            self.state.as_mut().copy_from_slice(state);
+            self.solver.recall(*memory);
+        }
         Ok(())
     }
 

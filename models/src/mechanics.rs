@@ -1,0 +1,16 @@
+//! What all models share that are an ordinary differential equation `y' = f(y, u)`.
+//!
+//! * [`equation`]: what a model gives;
+//! * [`run`]: an equation and a solver as a subsystem: state, outputs, snapshots, checks;
+//! * [`adaptive`], [`fixed`], [`solvers`]: the solvers, and how a setup chooses one;
+//! * [`describe`], [`markers`]: parts of a description;
+//! * [`planar`], [`spatial`]: kinematics of rigid bodies.
+
+mod adaptive;
+pub mod describe;
+pub mod equation;
+mod fixed;
+pub mod markers;
+pub mod planar;
+pub mod run;
+pub mod solvers;

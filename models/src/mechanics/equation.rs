@@ -1,0 +1,68 @@
+//! What a model gives: the equation of motion `y' = f(y, u)` and its outputs.
+
+use linchpin_worker::Inputs;
+use nalgebra::DMatrix;
+
+use crate::integrators::Ode;
+
+/// A fixed number of values: states or inputs.
+pub trait Vector: Copy + Send + AsRef<[f64]> + AsMut<[f64]> {
+    /// All zero.
+    const ZERO: Self;
+}
+
+impl<const N: usize> Vector for [f64; N] {
+    const ZERO: Self = [0.0; N];
+}
+
+/// An equation of motion with states `y` and inputs `u`.
+pub trait EquationOfMotion: Send {
+    /// The states `y`.
+    type State: Vector;
+    /// The inputs `u`, in the order of the model's description.
+    type Inputs: Vector;
+
+    /// Names of the states, for messages.
+    const STATE_NAMES: &'static [&'static str];
+
+    /// `f(y, u)`.
+    fn rate(&self, state: &Self::State, inputs: &Self::Inputs) -> Self::State;
+
+    /// Writes `df/dy` to `jacobian`, all of it.
+    fn jacobian(&self, state: &Self::State, inputs: &Self::Inputs, jacobian: &mut DMatrix<f64>);
+
+    /// Output number `output` of the model's description; `None` if there is none.
+    fn output(&self, state: &Self::State, inputs: &Self::Inputs, output: usize) -> Option<f64>;
+
+    /// Brings a state that a macro step has reached back to where states belong (a quaternion to unit length).
+    fn settle(&self, _state: &mut Self::State) {}
+}
+
+/// The equation under given inputs, as integrators want it.
+#[derive(Debug, Clone, Copy)]
+pub struct Driven<'a, E> {
+    pub equation: &'a E,
+    pub inputs: &'a Inputs,
+}
+
+impl<E: EquationOfMotion> Driven<'_, E> {
+    fn at(&self, tau: f64, y: &[f64]) -> (E::State, E::Inputs) {
+        let (mut state, mut inputs) = (E::State::ZERO, E::Inputs::ZERO);
+        state.as_mut().copy_from_slice(y);
+        self.inputs.values_at(tau, inputs.as_mut());
+        (state, inputs)
+    }
+}
+
+impl<E: EquationOfMotion> Ode for Driven<'_, E> {
+    fn derivative(&self, tau: f64, y: &[f64], dy: &mut [f64]) {
+        let (state, inputs) = self.at(tau, y);
+        dy.copy_from_slice(self.equation.rate(&state, &inputs).as_ref());
+    }
+
+    fn jacobian(&self, tau: f64, y: &[f64], jacobian: &mut DMatrix<f64>) -> bool {
+        let (state, inputs) = self.at(tau, y);
+        self.equation.jacobian(&state, &inputs, jacobian);
+        true
+    }
+}
