@@ -1,6 +1,8 @@
 //! Built-in subsystem solvers behind [`linchpin_worker::Model`].
 //!
 //! * [`oscillator`]: one mass on a spring and a damper;
+//! * [`pendulum`], [`planar_body`]: rigid links in the plane, on a hinge and free;
+//! * [`spatial_body`]: a free rigid body in space;
 //! * [`integrators`]: time integration that several models share;
 //! * [`mod@reference`]: solutions that coupled runs are compared with.
 
@@ -9,7 +11,10 @@
 pub mod integrators;
 mod mechanics;
 pub mod oscillator;
+pub mod pendulum;
+pub mod planar_body;
 pub mod reference;
+pub mod spatial_body;
 
 use linchpin_worker::Model;
 
@@ -17,5 +22,8 @@ use linchpin_worker::Model;
 pub fn models() -> Vec<Box<dyn Model>> {
     vec![
         Box::new(oscillator::Oscillator),
+        Box::new(pendulum::Pendulum),
+        Box::new(planar_body::PlanarBody),
+        Box::new(spatial_body::SpatialBody),
     ]
 }

@@ -14,3 +14,4 @@ pub mod markers;
 pub mod planar;
 pub mod run;
 pub mod solvers;
+pub mod spatial;

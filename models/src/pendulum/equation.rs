@@ -1,0 +1,99 @@
+//! The equation of motion.
+
+use linchpin_worker::Setup;
+use linchpin_worker::setup::SetupError;
+use nalgebra::DMatrix;
+
+use super::description::{ANGLE, ENERGY, RATE};
+use crate::mechanics::equation::EquationOfMotion;
+use crate::mechanics::planar::{AxisPoint, Triple};
+
+/// Angle (rad) and its rate (rad/s).
+type State = [f64; 2];
+
+/// A link on a hinge in the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HingedLink {
+    mass: f64,
+    /// About the hinge.
+    inertia: f64,
+    centre: AxisPoint,
+    tip: AxisPoint,
+    hinge: [f64; 2],
+    gravity: f64,
+    spring: f64,
+    damping: f64,
+    rest_angle: f64,
+}
+
+impl HingedLink {
+    /// # Errors
+    /// [`SetupError`] if a parameter is missing or out of its range.
+    pub fn from_setup(setup: &Setup) -> Result<Self, SetupError> {
+        let mass = setup.positive_parameter("m")?;
+        let length = setup.positive_parameter("length")?;
+        let centre = 0.5 * length + setup.parameter("offset")?;
+        Ok(Self {
+            mass,
+            inertia: setup.positive_parameter("inertia")? + mass * centre * centre,
+            centre: AxisPoint { along: centre },
+            tip: AxisPoint { along: length },
+            hinge: [setup.parameter("hinge_x")?, setup.parameter("hinge_y")?],
+            gravity: setup.parameter("gravity")?,
+            spring: setup.non_negative_parameter("spring")?,
+            damping: setup.non_negative_parameter("damping")?,
+            rest_angle: setup.parameter("rest_angle")?,
+        })
+    }
+
+    fn weight(&self) -> Triple {
+        [0.0, -self.mass * self.gravity, 0.0]
+    }
+
+    fn energy(&self, &[angle, rate]: &State) -> f64 {
+        let [_, height, _] = self.centre.position([self.hinge[0], self.hinge[1], angle]);
+        let turn = angle - self.rest_angle;
+        0.5 * (self.inertia * rate * rate + self.spring * turn * turn)
+            + self.mass * self.gravity * height
+    }
+}
+
+impl EquationOfMotion for HingedLink {
+    type State = State;
+    type Inputs = Triple;
+
+    const STATE_NAMES: &'static [&'static str] = &["angle", "rate"];
+
+    fn rate(&self, &[angle, rate]: &State, &load: &Triple) -> State {
+        let moment = self.centre.moment(angle, self.weight()) + self.tip.moment(angle, load)
+            - self.spring * (angle - self.rest_angle)
+            - self.damping * rate;
+        [rate, moment / self.inertia]
+    }
+
+    fn jacobian(&self, &[angle, _]: &State, &load: &Triple, jacobian: &mut DMatrix<f64>) {
+        let moment_by_angle = self.centre.moment_by_angle(angle, self.weight())
+            + self.tip.moment_by_angle(angle, load)
+            - self.spring;
+        jacobian[(0, 0)] = 0.0;
+        jacobian[(0, 1)] = 1.0;
+        jacobian[(1, 0)] = moment_by_angle / self.inertia;
+        jacobian[(1, 1)] = -self.damping / self.inertia;
+    }
+
+    fn output(&self, state: &State, load: &Triple, output: usize) -> Option<f64> {
+        let &[angle, rate] = state;
+        Some(match output {
+            0..ANGLE => {
+                let [x, y] = self.hinge;
+                let acceleration = || [0.0, 0.0, self.rate(state, load)[1]];
+                self.tip
+                    .output(output, [x, y, angle], [0.0, 0.0, rate], acceleration)
+            }
+            ANGLE => angle,
+            RATE => rate,
+            ENERGY => self.energy(state),
+            _ => return None,
+        })
+    }
+}
