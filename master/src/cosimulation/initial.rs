@@ -4,7 +4,7 @@ use super::{Parts, at_start};
 use crate::coupling::columns::Column;
 use crate::coupling::layout::{Layout, MarkedJoint};
 use crate::coupling::solve::{LinearSolver, SingularColumn};
-use crate::coupling::system::System;
+use crate::coupling::system::{System, motion_of};
 use crate::error::RunError;
 use crate::joint::{Level, extent};
 use crate::scene::Scene;
@@ -21,7 +21,7 @@ pub(super) struct InitialState {
 /// No load at the start.
 pub(super) fn at_rest(parts: &Parts) -> InitialState {
     InitialState {
-        multipliers: vec![0.0; parts.layout.rows()],
+        multipliers: vec![0.0; parts.layout.rows.len()],
     }
 }
 
@@ -37,7 +37,7 @@ impl InitialState {
         if !accept_open_joints {
             check_closed(scene, parts)?;
         }
-        let given: Option<Vec<f64>> = scene.joints.iter().map(|joint| joint.multiplier).collect();
+        let given = given_multipliers(scene, &parts.layout)?;
         if let Some(multipliers) = given {
             return Ok(Self { multipliers });
         }
@@ -61,7 +61,7 @@ impl InitialState {
 
     /// Driven inputs of one subsystem; motion of a partner counts as absent.
     fn inputs(&self, layout: &Layout, number: usize) -> Vec<f64> {
-        let rows = layout.rows();
+        let rows = layout.rows.len();
         let load = |input: &crate::coupling::layout::DrivenInput| {
             let loads = input
                 .combination
@@ -79,7 +79,7 @@ fn solve_accelerations(
     parts: &Parts,
 ) -> Result<Vec<f64>, RunError> {
     let t = scene.t_start;
-    let rows = layout.rows();
+    let rows = layout.rows.len();
     let free = evaluate_all(layout, parts, t, None)?;
     let mut columns = Vec::with_capacity(layout.inputs.len());
     for (number, input) in layout.inputs.iter().enumerate() {
@@ -98,7 +98,7 @@ fn solve_accelerations(
     let (jacobian, solution) = system.level_equation(Level::Acceleration);
     LinearSolver::new(rows)
         .solve(jacobian, solution)
-        .map_err(|SingularColumn(row)| refuse_redundant(scene, row))?;
+        .map_err(|SingularColumn(row)| refuse_redundant(scene, layout.rows[row].joint))?;
     Ok(solution.to_vec())
 }
 
@@ -136,24 +136,42 @@ fn evaluate_one(
 fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
     let layout = &parts.layout;
     let outputs = evaluate_all(layout, parts, scene.t_start, None)?;
-    for (row, joint) in layout.joints.iter().enumerate() {
-        let motion = crate::coupling::system::motion_of(layout, row, |s| outputs[s].as_slice());
+    for (number, row) in layout.rows.iter().enumerate() {
+        let motion = motion_of(layout, row.joint, |s| outputs[s].as_slice());
         for &level in layout.level.up_to() {
-            let residual = joint.law.condition(level, &motion);
-            let sizes = motion.map(|end| [end[level as usize], 0.0, 0.0]);
-            if level < Level::Acceleration && residual.abs() > CLOSED * extent(&sizes) {
+            let law = &layout.joints[row.joint].law;
+            let residual = law.condition(row.condition, level, &motion);
+            if level < Level::Acceleration && residual.abs() > CLOSED * extent(&motion, level) {
                 let message = format!(
-                    "the joint is open at t = {} s: its residual on {} level is {residual:e}",
+                    "the joint is open at t = {} s: {} is {residual:e}",
                     at_start(scene.t_start).start,
-                    level.name()
+                    layout.column_name(number, &format!("residual.{}", level.name()))
                 );
                 let help = "choose initial values of the two subsystems that meet the joint";
-                let key = format!("joint.{}", joint.name);
+                let key = format!("joint.{}", scene.joints[row.joint].name);
                 return Err(scene.error(&key, message, Some(help.into())).into());
             }
         }
     }
     Ok(())
+}
+
+/// The multipliers that the scene gives, if it gives all of them.
+fn given_multipliers(scene: &Scene, layout: &Layout) -> Result<Option<Vec<f64>>, RunError> {
+    let mut given = Vec::new();
+    for (joint, bound) in scene.joints.iter().zip(&layout.joints) {
+        let Some(multiplier) = &joint.multiplier else {
+            return Ok(None);
+        };
+        let expected = bound.law.rows().len();
+        if multiplier.len() != expected {
+            let message = format!("{} multipliers, this joint has {expected}", multiplier.len());
+            let key = format!("joint.{}.multiplier", joint.name);
+            return Err(scene.error(&key, message, None).into());
+        }
+        given.extend_from_slice(multiplier);
+    }
+    Ok(Some(given))
 }
 
 fn refuse_redundant(scene: &Scene, joint: usize) -> RunError {

@@ -76,8 +76,7 @@ impl CoSimulation {
             Scheme::Penalty(_) => Guard::of_springs(),
             _ => Guard::of_rigid_joints(),
         };
-        let names = scene.joints.iter().map(|joint| joint.name.as_str());
-        let statistics = Statistics::new(names, parts.layout.level);
+        let statistics = Statistics::new(&parts.layout);
         Ok(Self {
             parts,
             scheme,

@@ -1,14 +1,14 @@
 //! Finds models, markers and outputs that a scene names in what the workers describe.
 
-use linchpin_proto::v1;
+use linchpin_proto::v1::{self, MarkerKind};
 use linchpin_proto::version;
 
 use super::{Subsystem, at_start};
 use crate::coupling::layout::{Lack, MarkedJoint, MarkerLacks};
 use crate::error::RunError;
-use crate::joint::Level;
+use crate::joint::{AtPoint, Joint as Law, Level, RigidLink};
 use crate::scene::nearest::nearest;
-use crate::scene::{Joint, Scene, Side};
+use crate::scene::{Joint, JointKind, Scene, Side};
 
 /// Asks a worker for its models and chooses the one that the scene wants.
 pub(super) fn model_of(
@@ -68,13 +68,47 @@ pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoin
             Ok::<_, RunError>((side.subsystem, marker))
         };
         let ends = [marker(&joint.a, "a")?, marker(&joint.b, "b")?];
+        let law = law_between(scene, joint, &ends)?;
         Ok(MarkedJoint {
             name: joint.name.clone(),
-            kind: joint.kind,
+            law,
             ends,
         })
     };
     scene.joints.iter().map(mark_one).collect()
+}
+
+/// The law of a joint between two markers, which must be of one kind that the joint can hold.
+fn law_between(
+    scene: &Scene,
+    joint: &Joint,
+    [(_, a), (_, b)]: &[(usize, v1::Marker); 2],
+) -> Result<fn() -> Box<dyn Law>, RunError> {
+    let key = format!("joint.{}", joint.name);
+    if a.kind != b.kind {
+        let message = format!("it joins a {} and a {} marker", kind_name(a), kind_name(b));
+        let help = "both markers must be of the same kind";
+        return Err(scene.error(&key, message, Some(help.into())).into());
+    }
+    match (joint.kind, a.kind()) {
+        (JointKind::RigidLink, MarkerKind::Scalar) => Ok(|| Box::new(RigidLink)),
+        (JointKind::AtPoint, MarkerKind::Planar) => Ok(|| Box::new(AtPoint::InPlane)),
+        (JointKind::AtPoint, MarkerKind::Spatial) => Ok(|| Box::new(AtPoint::InSpace)),
+        _ => {
+            let message = format!("this joint cannot hold {} markers", kind_name(a));
+            let help = "scalar markers take a rigid-link; planar and spatial ones an atpoint joint";
+            Err(scene.error(&format!("{key}.kind"), message, Some(help.into())).into())
+        }
+    }
+}
+
+fn kind_name(marker: &v1::Marker) -> &'static str {
+    match marker.kind() {
+        MarkerKind::Scalar => "scalar",
+        MarkerKind::Planar => "planar",
+        MarkerKind::Spatial => "spatial",
+        MarkerKind::Unspecified => "unspecified",
+    }
 }
 
 fn marker_of(
@@ -134,6 +168,7 @@ pub(super) fn refuse_marker(scene: &Scene, lacks: MarkerLacks) -> RunError {
             "choose coupling.index = 3",
         ),
         Lack::Output(Level::Position) => ("a position", "the worker must describe one"),
+        Lack::Load => ("an input for the joint's load", "the worker must describe one"),
         Lack::Spring => (
             "a spring-damper to a partner, which jacobi and gauss-seidel need at end a",
             "exchange the ends of the joint, or choose a rigid coupling method",

@@ -30,7 +30,7 @@ pub enum Condition {
 /// No unique solution for the multiplier of this row, on this level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SingularRow {
-    /// Row, which is the number of the joint.
+    /// Row of the system.
     pub row: usize,
     /// Level of the conditions; the highest for a sum of levels.
     pub level: Level,
@@ -40,7 +40,7 @@ impl SingularRow {
     /// The error of a run that met it in `step`.
     pub fn in_step(self, parts: &Parts, step: MacroStep) -> RunError {
         RunError::Singular {
-            joint: parts.layout.joints[self.row].name.clone(),
+            joint: parts.layout.joint_of(self.row).name.clone(),
             level: self.level.name(),
             t: step.start,
             step: step.length,
@@ -58,7 +58,7 @@ pub fn check_finite(multipliers: &[f64], parts: &Parts, step: MacroStep) -> Resu
         Some(row) => Err(RunError::Grown {
             t: step.end,
             step: step.length,
-            variable: format!("{}.lambda", parts.layout.joints[row].name),
+            variable: parts.layout.column_name(row, "lambda"),
             value: multipliers[row],
             growth: f64::MAX,
         }),

@@ -28,7 +28,7 @@ pub struct Explicit {
 impl Explicit {
     /// The method with time constant `mu` (s), from trial multipliers.
     pub fn new(mu: f64, increment: Increment, multipliers: Vec<f64>, parts: &Parts) -> Self {
-        let rows = parts.layout.rows();
+        let rows = parts.layout.rows.len();
         Self {
             condition: Condition::Baumgarte {
                 beta: 2.0 * mu,

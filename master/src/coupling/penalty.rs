@@ -42,7 +42,7 @@ impl Penalty {
             stiffness,
             damping,
             history: History::new(degree, &[]),
-            values: vec![0.0; 3 * parts.layout.rows()],
+            values: vec![0.0; 3 * parts.layout.rows.len()],
         };
         method.read_variables(parts);
         method.history = History::new(degree, &method.values);
@@ -124,43 +124,43 @@ impl Penalty {
         number: usize,
         step: MacroStep,
     ) -> Option<f64> {
-        let rows = parts.layout.rows();
+        let rows = parts.layout.rows.len();
         let row = variable % rows;
-        let [a, b] = parts.layout.joints[row]
-            .ends
-            .each_ref()
-            .map(|end| end.subsystem);
-        let mut motion = motion_of(&parts.layout, row, |s| {
-            parts.subsystems[s].coupling_values()
-        });
+        let ends = &parts.layout.joint_of(row).ends;
+        let [a, b] = ends.each_ref().map(|end| end.subsystem);
+        let mut motion = self.motion(parts, row);
         match variable / rows {
             0 if a < number => {
                 // End b, which takes this force, has not stepped: the spring has seen its extrapolated motion.
-                motion[1][0] = self.history.extrapolated_value(rows + row, step.length);
-                motion[1][1] = self.history.extrapolated_value(2 * rows + row, step.length);
+                motion[1][0][0] = self.history.extrapolated_value(rows + row, step.length);
+                motion[1][1][0] = self.history.extrapolated_value(2 * rows + row, step.length);
                 Some(self.force(parts, row, &motion))
             }
-            1 if b < number => Some(motion[1][0]),
-            2 if b < number => Some(motion[1][1]),
+            1 if b < number => Some(motion[1][0][0]),
+            2 if b < number => Some(motion[1][1][0]),
             _ => None,
         }
     }
 
     fn read_variables(&mut self, parts: &Parts) {
-        let rows = parts.layout.rows();
+        let rows = parts.layout.rows.len();
         for row in 0..rows {
-            let motion = motion_of(&parts.layout, row, |s| {
-                parts.subsystems[s].coupling_values()
-            });
+            let motion = self.motion(parts, row);
             self.values[row] = self.force(parts, row, &motion);
-            self.values[rows + row] = motion[1][0];
-            self.values[2 * rows + row] = motion[1][1];
+            self.values[rows + row] = motion[1][0][0];
+            self.values[2 * rows + row] = motion[1][1][0];
         }
     }
 
+    fn motion(&self, parts: &Parts, row: usize) -> Motion {
+        let joint = parts.layout.rows[row].joint;
+        motion_of(&parts.layout, joint, |s| parts.subsystems[s].coupling_values())
+    }
+
     fn force(&self, parts: &Parts, row: usize, motion: &Motion) -> f64 {
-        let law = &parts.layout.joints[row].law;
-        self.stiffness * law.condition(Level::Position, motion)
-            + self.damping * law.condition(Level::Velocity, motion)
+        let law = &parts.layout.joint_of(row).law;
+        let condition = parts.layout.rows[row].condition;
+        self.stiffness * law.condition(condition, Level::Position, motion)
+            + self.damping * law.condition(condition, Level::Velocity, motion)
     }
 }

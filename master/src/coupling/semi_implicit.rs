@@ -37,7 +37,7 @@ impl SemiImplicit {
         history: History,
         parts: &Parts,
     ) -> Self {
-        let rows = parts.layout.rows();
+        let rows = parts.layout.rows.len();
         Self {
             condition,
             increment,
@@ -137,8 +137,9 @@ impl SemiImplicit {
         self.system.assemble_residuals(&parts.layout, corrected);
         let mut defect = Defect::default();
         for (row, found) in self.system.residual(Level::Position).iter().enumerate() {
-            let motion = motion_of(&parts.layout, row, corrected);
-            defect.add(self.promised[row], self.shift[row], *found, extent(&motion));
+            let motion = motion_of(&parts.layout, parts.layout.rows[row].joint, corrected);
+            let extent = extent(&motion, Level::Position);
+            defect.add(self.promised[row], self.shift[row], *found, extent);
         }
         defect.verdict()
     }

@@ -3,7 +3,7 @@
 use faer::{Mat, unzip, zip};
 
 use super::columns::Column;
-use super::layout::Layout;
+use super::layout::{BoundJoint, Layout};
 use crate::cosimulation::Parts;
 use crate::joint::{End, Level, Motion};
 
@@ -63,10 +63,12 @@ impl System {
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
     ) {
-        for (row, joint) in layout.joints.iter().enumerate() {
-            let motion = motion_of(layout, row, outputs);
+        for (number, row) in layout.rows.iter().enumerate() {
+            let motion = motion_of(layout, row.joint, outputs);
+            let law = &layout.joints[row.joint].law;
             for &level in self.level.up_to() {
-                self.residuals[level as usize][row] = joint.law.condition(level, &motion);
+                self.residuals[level as usize][number] =
+                    law.condition(row.condition, level, &motion);
             }
         }
     }
@@ -81,8 +83,8 @@ impl System {
         for &level in self.level.up_to() {
             self.jacobians[level as usize].fill(0.0);
         }
-        for row in 0..layout.rows() {
-            let motion = motion_of(layout, row, outputs);
+        for row in 0..layout.rows.len() {
+            let motion = motion_of(layout, layout.rows[row].joint, outputs);
             for end in End::BOTH {
                 self.add_end(layout, row, end, &motion, columns);
             }
@@ -97,21 +99,19 @@ impl System {
         motion: &Motion,
         columns: &[Column],
     ) {
-        let joint = &layout.joints[row];
-        let bound = &joint.ends[end as usize];
-        for (input, column) in layout.inputs.iter().zip(columns) {
-            if input.subsystem != bound.subsystem {
-                continue;
-            }
+        let condition = layout.rows[row].condition;
+        let BoundJoint { law, ends, .. } = layout.joint_of(row);
+        let bound = &ends[end as usize];
+        let own = layout.input_range(bound.subsystem);
+        for (input, column) in layout.inputs[own.clone()].iter().zip(&columns[own]) {
             for &level in self.level.up_to() {
-                let response: f64 = level
-                    .up_to()
-                    .iter()
-                    .map(|&of| {
-                        joint.law.gradient(level, motion, end, of)
-                            * column.derivatives[bound.outputs[of as usize]]
-                    })
-                    .sum();
+                let mut response = 0.0;
+                for &of in level.up_to() {
+                    for (component, &place) in bound.outputs[of as usize].iter().enumerate() {
+                        let gradient = law.gradient(condition, level, motion, end, of, component);
+                        response += gradient * column.derivatives[place];
+                    }
+                }
                 for &(variable, factor) in &input.combination {
                     self.jacobians[level as usize][(row, variable)] += response * factor;
                 }
@@ -166,13 +166,20 @@ impl System {
     }
 }
 
-/// Motion of the two markers of joint `row`; levels that the layout does not have stay 0 and are not read.
-pub fn motion_of<'a>(layout: &Layout, row: usize, outputs: impl Fn(usize) -> &'a [f64]) -> Motion {
+/// What joint number `joint` reads of the motion of its two markers; levels that the layout does not have stay 0 and are
+/// not read.
+pub fn motion_of<'a>(
+    layout: &Layout,
+    joint: usize,
+    outputs: impl Fn(usize) -> &'a [f64],
+) -> Motion {
     let mut motion = Motion::default();
-    for (motion, end) in motion.iter_mut().zip(&layout.joints[row].ends) {
+    for (motion, end) in motion.iter_mut().zip(&layout.joints[joint].ends) {
         let values = outputs(end.subsystem);
-        for (value, &place) in motion.iter_mut().zip(&end.outputs) {
-            *value = values[place];
+        for (motion, places) in motion.iter_mut().zip(&end.outputs) {
+            for (component, &place) in motion.iter_mut().zip(places) {
+                *component = values[place];
+            }
         }
     }
     motion

@@ -94,17 +94,21 @@ impl Guard {
         row: &Row,
         layout: &Layout,
     ) -> Result<(), RunError> {
-        for (number, joint) in layout.joints.iter().enumerate() {
+        for joint in &layout.joints {
             for end in &joint.ends {
-                let position = row.output(end.subsystem, end.outputs[0]);
-                self.largest_motion = self.largest_motion.max(position.abs());
+                for &place in &end.outputs[0] {
+                    let position = row.output(end.subsystem, place);
+                    self.largest_motion = self.largest_motion.max(position.abs());
+                }
             }
+        }
+        for number in 0..layout.rows.len() {
             let opening = row.residuals(number)[0].abs();
             if opening > self.most_opening * self.largest_motion {
                 return Err(RunError::Diverged {
                     t: step.end,
                     step: step.length,
-                    joint: joint.name.clone(),
+                    joint: layout.joint_of(number).name.clone(),
                     opening,
                     motion: self.largest_motion,
                 });

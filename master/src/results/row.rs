@@ -29,14 +29,17 @@ impl Row {
         let joints = &parts.layout.joints;
         let ends = joints.iter().flat_map(|joint| &joint.ends);
         let positions = ends
-            .map(|end| first_outputs[end.subsystem] + end.outputs[0])
+            .flat_map(|end| end.outputs[0].iter().map(|place| first_outputs[end.subsystem] + place))
             .collect();
-        columns.extend(joints.iter().map(|joint| format!("{}.lambda", joint.name)));
+        let rows = 0..parts.layout.rows.len();
+        columns.extend(rows.clone().map(|row| parts.layout.column_name(row, "lambda")));
         let first_residual = columns.len();
         let levels = parts.layout.level.up_to();
-        for joint in joints {
-            let residual = |level: &Level| format!("{}.residual.{}", joint.name, level.name());
-            columns.extend(levels.iter().map(residual));
+        for row in rows {
+            let name = |level: &Level| {
+                parts.layout.column_name(row, &format!("residual.{}", level.name()))
+            };
+            columns.extend(levels.iter().map(name));
         }
         Self {
             values: vec![0.0; columns.len()],
@@ -56,13 +59,12 @@ impl Row {
             self.values.extend_from_slice(&subsystem.outputs);
         }
         self.values.extend_from_slice(multipliers);
-        for (number, joint) in parts.layout.joints.iter().enumerate() {
-            let motion = motion_of(&parts.layout, number, |s| {
-                parts.subsystems[s].coupling_values()
-            });
+        for row in &parts.layout.rows {
+            let motion =
+                motion_of(&parts.layout, row.joint, |s| parts.subsystems[s].coupling_values());
+            let law = &parts.layout.joints[row.joint].law;
             let levels = parts.layout.level.up_to().iter();
-            self.values
-                .extend(levels.map(|&level| joint.law.condition(level, &motion)));
+            self.values.extend(levels.map(|&level| law.condition(row.condition, level, &motion)));
         }
     }
 
@@ -103,13 +105,13 @@ impl Row {
         self.values[self.first_outputs[subsystem] + output]
     }
 
-    /// Residuals of joint number `joint`, one for each level.
-    pub(crate) fn residuals(&self, joint: usize) -> &[f64] {
-        &self.values[self.first_residual + joint * self.levels..][..self.levels]
+    /// Residuals of a row of the coupling system, one for each level.
+    pub(crate) fn residuals(&self, row: usize) -> &[f64] {
+        &self.values[self.first_residual + row * self.levels..][..self.levels]
     }
 
-    /// Number of joints.
-    pub(crate) fn joints(&self) -> usize {
+    /// Number of rows of the coupling system.
+    pub(crate) fn rows(&self) -> usize {
         self.first_residual - self.first_multiplier
     }
 }

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{Row, Verdict};
 use crate::cosimulation::{Outcome, Subsystem};
-use crate::joint::Level;
+use crate::coupling::layout::Layout;
 
 /// What a run cost and how well its joints held.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -46,11 +46,13 @@ pub struct Verdicts {
     pub poor: u64,
 }
 
-/// Largest residual of a joint over the run.
+/// Largest residual of one condition of a joint over the run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct JointResiduals {
     /// Name in the scene.
     pub joint: String,
+    /// Which of its conditions, e.g. `x`; empty if it has only one.
+    pub part: &'static str,
     /// Level of the condition.
     pub level: &'static str,
     /// Largest absolute value.
@@ -75,13 +77,15 @@ pub struct SubsystemStatistics {
 }
 
 impl Statistics {
-    /// Nothing done yet; `joints` by name, with residuals up to `level`.
-    pub(crate) fn new<'a>(joints: impl Iterator<Item = &'a str>, level: Level) -> Self {
+    /// Nothing done yet.
+    pub(crate) fn new(layout: &Layout) -> Self {
         let mut statistics = Self::default();
-        for joint in joints {
-            let levels = level.up_to().iter();
+        for row in &layout.rows {
+            let joint = &layout.joints[row.joint];
+            let levels = layout.level.up_to().iter();
             statistics.joints.extend(levels.map(|level| JointResiduals {
-                joint: joint.to_owned(),
+                joint: joint.name.clone(),
+                part: joint.law.rows()[row.condition],
                 level: level.name(),
                 largest: 0.0,
             }));
@@ -100,7 +104,7 @@ impl Statistics {
             Verdict::Fair => &mut verdicts.fair,
             Verdict::Poor => &mut verdicts.poor,
         } += 1;
-        let residuals = (0..row.joints()).flat_map(|joint| row.residuals(joint));
+        let residuals = (0..row.rows()).flat_map(|number| row.residuals(number));
         for (joint, residual) in self.joints.iter_mut().zip(residuals) {
             joint.largest = joint.largest.max(residual.abs());
         }

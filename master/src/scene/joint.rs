@@ -5,9 +5,13 @@ use super::names::Registry;
 use super::nearest::nearest;
 use super::reader::{FINITE, Field, Problems, Section};
 use super::resolved::{Joint, JointKind, Side};
+use super::written::Value;
 
 const KEYS: [&str; 5] = ["name", "kind", "a", "b", "multiplier"];
-const KINDS: [(&str, JointKind); 1] = [("rigid-link", JointKind::RigidLink)];
+const KINDS: [(&str, JointKind); 2] = [
+    ("rigid-link", JointKind::RigidLink),
+    ("atpoint", JointKind::AtPoint),
+];
 
 pub(super) fn read(
     section: &Section<'_>,
@@ -29,7 +33,7 @@ pub(super) fn read(
         .as_ref()
         .and_then(|field| read_side(field, subsystems, problems));
     let multiplier = match section.get("multiplier") {
-        Some(field) => field.number(&FINITE, problems).map(Some),
+        Some(field) => read_multipliers(&field, problems).map(Some),
         None => Some(None),
     };
     let joint = Joint {
@@ -48,6 +52,15 @@ pub(super) fn read(
         return None;
     }
     Some(joint)
+}
+
+/// One number, or a list of them.
+fn read_multipliers(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
+    if !matches!(field.node.value, Value::List(_)) {
+        return field.number(&FINITE, problems).map(|number| vec![number]);
+    }
+    let fields = field.items("a number or a list of numbers", problems)?;
+    fields.iter().map(|field| field.number(&FINITE, problems)).collect()
 }
 
 fn read_side(

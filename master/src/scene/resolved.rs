@@ -146,6 +146,8 @@ pub struct Subsystem {
 pub enum JointKind {
     /// Position of b minus position of a = 0; +lambda acts on a, -lambda on b.
     RigidLink,
+    /// The two marker points coincide; the multipliers are the force on a in the inertial frame.
+    AtPoint,
 }
 
 /// One end of a joint.
@@ -168,8 +170,8 @@ pub struct Joint {
     pub a: Side,
     /// The second side, on another subsystem.
     pub b: Side,
-    /// Multiplier at the start in N; absent: computed.
-    pub multiplier: Option<f64>,
+    /// Multipliers at the start, one for each condition of the joint, in N; absent: computed.
+    pub multiplier: Option<Vec<f64>>,
 }
 
 /// What is recorded.

@@ -97,17 +97,13 @@ fn model_text(model: &Model) -> String {
     }
     text += "  markers\n";
     for marker in &model.markers {
-        let motion = [
-            Some(&marker.position),
-            marker.velocity.as_ref(),
-            marker.acceleration.as_ref(),
-        ];
+        let motion = [&marker.position, &marker.velocity, &marker.acceleration];
         let motion: Vec<&str> = motion.into_iter().flatten().map(String::as_str).collect();
         text += &format!(
             "    {:<20} motion {}, load {}\n",
             marker.name,
             motion.join(", "),
-            marker.load
+            marker.load.join(", ")
         );
     }
     text += "  solvers\n";

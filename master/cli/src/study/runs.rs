@@ -95,11 +95,8 @@ pub enum Kind {
 pub fn judged_columns(scene: &Scene, models: &[Model]) -> Vec<(String, Kind)> {
     let mut columns = Vec::new();
     for (subsystem, model) in scene.subsystems.iter().zip(models) {
-        let positions = model.markers.iter().map(|marker| &marker.position);
-        let velocities = model
-            .markers
-            .iter()
-            .filter_map(|marker| marker.velocity.as_ref());
+        let positions = model.markers.iter().flat_map(|marker| &marker.position);
+        let velocities = model.markers.iter().flat_map(|marker| &marker.velocity);
         let positions = positions.map(|output| (output, Kind::Position));
         let velocities = velocities.map(|output| (output, Kind::Velocity));
         let mut seen = BTreeSet::new();
