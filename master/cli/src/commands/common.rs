@@ -1,7 +1,8 @@
 //! Arguments that several commands share.
 
+use std::fmt::Display;
 use std::fs;
-use std::io::IsTerminal;
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
 use linchpin_master::scene::{self, Override, Scene, warnings};
@@ -24,7 +25,7 @@ impl SceneArguments {
     pub fn load(&self) -> Result<Scene, CommandError> {
         let scene = scene::load(&self.scene, &self.set)?;
         for warning in warnings(&scene) {
-            eprintln!("warning: {warning}");
+            warn(warning);
         }
         Ok(scene)
     }
@@ -70,6 +71,31 @@ pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
     fs::write(&trial, "")
         .and_then(|()| fs::remove_file(&trial))
         .map_err(unwritable)
+}
+
+/// Removes results of an earlier run that this one would not overwrite if it failed.
+pub fn remove_stale(path: &Path) -> Result<(), CommandError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => Err(CommandError::Unwritable {
+            path: path.to_owned(),
+            source,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Writes to the standard output. That its reader has enough, as in `| head -1`, is no error.
+pub fn print(text: impl Display) -> Result<(), CommandError> {
+    let mut output = std::io::stdout();
+    match write!(output, "{text}").and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a warning to the error output; whoever closed it is not told.
+pub fn warn(text: impl Display) {
+    let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
 /// A name that can be part of a path: letters, digits, `-`, `_` and `.` stay, runs of anything else become one `-`.
