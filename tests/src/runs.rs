@@ -28,6 +28,12 @@ impl Trajectory {
         self.rows.iter().map(|row| row[place]).collect()
     }
 
+    /// The rows after `t`.
+    pub fn after(mut self, t: f64) -> Self {
+        self.rows.retain(|row| row[0] > t);
+        self
+    }
+
     /// Every column with the bits of its values, by name.
     pub fn bits(&self) -> Vec<(String, Vec<u64>)> {
         let bits = |name: &String| self.column(name).into_iter().map(f64::to_bits).collect();
