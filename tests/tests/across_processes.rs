@@ -55,7 +55,10 @@ const CASES: [(&str, &str); 23] = [
     ("method=weighted index=2 degree=0", EXACT),
     ("method=explicit mu=10H", EXACT),
     ("method=jacobi stiffness=3e4 damping=20 degree=1", EXACT),
-    ("method=gauss-seidel stiffness=3e4 damping=20 degree=0", EXACT),
+    (
+        "method=gauss-seidel stiffness=3e4 damping=20 degree=0",
+        EXACT,
+    ),
     ("method=baumgarte index=1 degree=0", RADAU5),
     ("method=baumgarte index=1 degree=3", RADAU5),
     ("method=baumgarte index=2 degree=0", RADAU5),
@@ -63,7 +66,10 @@ const CASES: [(&str, &str); 23] = [
     ("method=weighted index=1 degree=2", RADAU5),
     ("method=explicit mu=10H", RADAU5),
     ("method=jacobi stiffness=3e4 damping=20 degree=2", RADAU5),
-    ("method=gauss-seidel stiffness=3e4 damping=20 degree=1", RADAU5),
+    (
+        "method=gauss-seidel stiffness=3e4 damping=20 degree=1",
+        RADAU5,
+    ),
     ("method=weighted index=1 degree=1", RK4),
 ];
 
@@ -73,7 +79,11 @@ fn scene() -> String {
         let coupling = settings.split(' ').map(|setting| {
             let (key, value) = setting.split_once('=').unwrap();
             let is_text = matches!(key, "method" | "mu");
-            let value = if is_text { format!("{value:?}") } else { value.to_owned() };
+            let value = if is_text {
+                format!("{value:?}")
+            } else {
+                value.to_owned()
+            };
             format!("\"coupling.{key}\" = {value}, ")
         });
         text += &format!(
@@ -99,7 +109,10 @@ fn run(workshop: &Workshop, name: &str, route: &str, arguments: &[&str]) -> Tabl
         for subsystem in run["statistics"]["subsystems"].as_array().unwrap() {
             assert_eq!(subsystem["route"], route, "{name}");
         }
-        (number, workshop.read(&format!("{name}/{number}/results.csv")))
+        (
+            number,
+            workshop.read(&format!("{name}/{number}/results.csv")),
+        )
     };
     (0..CASES.len()).map(read).collect()
 }
@@ -108,10 +121,26 @@ fn run(workshop: &Workshop, name: &str, route: &str, arguments: &[&str]) -> Tabl
 fn in_process(workshop: &Workshop) -> Tables {
     let tables = run(workshop, "in-process", "in process", &["--in-process"]);
     for (number, table) in &tables {
-        assert_eq!(table.lines().count(), 1 + 1 + MACRO_STEPS, "{:?}", CASES[*number]);
-        assert!(table.lines().last().unwrap().starts_with("0.05,"), "{:?}", CASES[*number]);
-        let twin = tables.iter().find(|(other, text)| *other != number && *text == table);
-        assert!(twin.is_none(), "{:?} equals {:?}", CASES[*number], twin.map(|twin| CASES[*twin.0]));
+        assert_eq!(
+            table.lines().count(),
+            1 + 1 + MACRO_STEPS,
+            "{:?}",
+            CASES[*number]
+        );
+        assert!(
+            table.lines().last().unwrap().starts_with("0.05,"),
+            "{:?}",
+            CASES[*number]
+        );
+        let twin = tables
+            .iter()
+            .find(|(other, text)| *other != number && *text == table);
+        assert!(
+            twin.is_none(),
+            "{:?} equals {:?}",
+            CASES[*number],
+            twin.map(|twin| CASES[*twin.0])
+        );
     }
     tables
 }
@@ -119,7 +148,12 @@ fn in_process(workshop: &Workshop) -> Tables {
 #[track_caller]
 fn assert_equal(tables: &Tables, expected: &Tables) {
     for (number, table) in tables {
-        assert!(*table == expected[number], "{:?}:\n{table}\n{}", CASES[*number], expected[number]);
+        assert!(
+            *table == expected[number],
+            "{:?}:\n{table}\n{}",
+            CASES[*number],
+            expected[number]
+        );
     }
     assert_eq!(tables.len(), expected.len());
 }
@@ -139,11 +173,19 @@ impl Worker {
         let mut running = workshop.start(&all);
         let announced = |worker: &Running| {
             let said = worker.stdout();
-            Some(said.strip_prefix("listening on ")?.strip_suffix('\n')?.to_owned())
+            Some(
+                said.strip_prefix("listening on ")?
+                    .strip_suffix('\n')?
+                    .to_owned(),
+            )
         };
         running.wait_until("an address", |worker| announced(worker).is_some());
         let address = announced(&running).unwrap();
-        Self { running, address, _workshop: workshop }
+        Self {
+            running,
+            address,
+            _workshop: workshop,
+        }
     }
 
     fn serves(&self, subsystem: &str) -> String {
@@ -161,7 +203,12 @@ const TCP: [&str; 2] = ["--listen", "127.0.0.1:0"];
 #[test]
 fn one_thread_for_each_subsystem() {
     let workshop = Workshop::new();
-    let threads = run(&workshop, "threads", "in process, own thread", &["--in-process", "--threads"]);
+    let threads = run(
+        &workshop,
+        "threads",
+        "in process, own thread",
+        &["--in-process", "--threads"],
+    );
     assert_equal(&threads, &in_process(&workshop));
 }
 
@@ -169,7 +216,10 @@ fn one_thread_for_each_subsystem() {
 fn worker_processes_on_unix_sockets() {
     let workshop = Workshop::new();
     let expected = in_process(&workshop);
-    assert_equal(&run(&workshop, "default", "exchange stream", &[]), &expected);
+    assert_equal(
+        &run(&workshop, "default", "exchange stream", &[]),
+        &expected,
+    );
     let unary = ["--set", "subsystem.*.calls=unary"];
     assert_equal(&run(&workshop, "unary", "unary calls", &unary), &expected);
 }
@@ -189,11 +239,22 @@ fn workers_started_by_hand_on_tcp() {
     let expected = in_process(&workshop);
     let workers = [Worker::start(&TCP), Worker::start(&TCP)];
     let addresses = [workers[0].serves("mass1"), workers[1].serves("mass2")];
-    assert!(addresses.iter().all(|address| address.contains("http://127.0.0.1:")), "{addresses:?}");
+    assert!(
+        addresses
+            .iter()
+            .all(|address| address.contains("http://127.0.0.1:")),
+        "{addresses:?}"
+    );
     let mut arguments = vec!["--set", &addresses[0], "--set", &addresses[1]];
-    assert_equal(&run(&workshop, "tcp", "exchange stream", &arguments), &expected);
+    assert_equal(
+        &run(&workshop, "tcp", "exchange stream", &arguments),
+        &expected,
+    );
     arguments.extend(["--set", "subsystem.*.calls=unary"]);
-    assert_equal(&run(&workshop, "unary", "unary calls", &arguments), &expected);
+    assert_equal(
+        &run(&workshop, "unary", "unary calls", &arguments),
+        &expected,
+    );
     for worker in workers {
         worker.end();
     }
@@ -205,11 +266,18 @@ fn two_subsystems_in_one_worker() {
     let expected = in_process(&workshop);
     let folder = tempfile::tempdir().unwrap();
     let socket = format!("unix:{}", folder.path().join("worker.sock").display());
-    for arguments in [&TCP[..], &["--listen", "127.0.0.1:0", "--threads", "3"], &["--listen", &socket]] {
+    for arguments in [
+        &TCP[..],
+        &["--listen", "127.0.0.1:0", "--threads", "3"],
+        &["--listen", &socket],
+    ] {
         let worker = Worker::start(arguments);
         let addresses = [worker.serves("mass1"), worker.serves("mass2")];
         let arguments = ["--set", &addresses[0], "--set", &addresses[1]];
-        assert_equal(&run(&workshop, "together", "exchange stream", &arguments), &expected);
+        assert_equal(
+            &run(&workshop, "together", "exchange stream", &arguments),
+            &expected,
+        );
         worker.end();
     }
 }
@@ -221,11 +289,30 @@ fn subsystems_that_are_reached_differently() {
     let expected = in_process(&workshop);
     workshop.write("scene.toml", scene());
     let worker = Worker::start(&TCP);
-    let [address, calls] = [worker.serves("mass2"), "subsystem.mass2.calls=unary".to_owned()];
-    let arguments = ["run", "scene.toml", "--out", "mixed", "--no-plots", "--quiet", "--set", &address, "--set", &calls];
+    let [address, calls] = [
+        worker.serves("mass2"),
+        "subsystem.mass2.calls=unary".to_owned(),
+    ];
+    let arguments = [
+        "run",
+        "scene.toml",
+        "--out",
+        "mixed",
+        "--no-plots",
+        "--quiet",
+        "--set",
+        &address,
+        "--set",
+        &calls,
+    ];
     workshop.run(&arguments).succeeds();
     for (number, table) in &expected {
-        assert_eq!(&workshop.read(&format!("mixed/{number}/results.csv")), table, "{:?}", CASES[*number]);
+        assert_eq!(
+            &workshop.read(&format!("mixed/{number}/results.csv")),
+            table,
+            "{:?}",
+            CASES[*number]
+        );
     }
     worker.end();
 }

@@ -31,8 +31,15 @@ const LARGEST_DIFFERENCE_OF_LOADS: f64 = 1e-10;
 fn python() -> (PathBuf, PathBuf) {
     let setup = Path::new(REPOSITORY).join("tests/python/setup.sh");
     let done = Command::new("bash").arg(&setup).output().unwrap();
-    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
-    let folder = Path::new(REPOSITORY).join("target/python").canonicalize().unwrap();
+    assert!(
+        done.status.success(),
+        "{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    let folder = Path::new(REPOSITORY)
+        .join("target/python")
+        .canonicalize()
+        .unwrap();
     (folder.join("venv/bin/python"), folder.join("stubs"))
 }
 
@@ -68,19 +75,34 @@ b = "mass2"
 
 fn columns(table: &str) -> Vec<(String, Vec<f64>)> {
     let mut reader = csv::Reader::from_reader(table.as_bytes());
-    let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
+    let names: Vec<String> = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .map(str::to_owned)
+        .collect();
     let rows: Vec<Vec<f64>> = reader
         .records()
-        .map(|row| row.unwrap().iter().map(|value| value.parse().unwrap()).collect())
+        .map(|row| {
+            row.unwrap()
+                .iter()
+                .map(|value| value.parse().unwrap())
+                .collect()
+        })
         .collect();
     let column = |place: usize| rows.iter().map(|row| row[place]).collect();
-    names.into_iter().enumerate().map(|(place, name)| (name, column(place))).collect()
+    names
+        .into_iter()
+        .enumerate()
+        .map(|(place, name)| (name, column(place)))
+        .collect()
 }
 
 /// Largest difference of two columns relative to the largest value.
 fn difference(one: &[f64], other: &[f64]) -> f64 {
     assert_eq!(one.len(), other.len());
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a: f64, b| a.max(b.abs()));
+    let largest =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |a: f64, b| a.max(b.abs()));
     let apart = largest(&mut one.iter().zip(other).map(|(a, b)| a - b));
     apart / largest(&mut other.iter().copied())
 }
@@ -88,15 +110,24 @@ fn difference(one: &[f64], other: &[f64]) -> f64 {
 #[test]
 fn it_agrees_with_the_built_in_worker_to_rounding() {
     let (python, stubs) = python();
-    let worker = Path::new(REPOSITORY).join("tests/python/oscillator_worker.py").canonicalize().unwrap();
+    let worker = Path::new(REPOSITORY)
+        .join("tests/python/oscillator_worker.py")
+        .canonicalize()
+        .unwrap();
     let workshop = Workshop::new();
-    workshop.write("foreign.toml", scene(&format!("command = {:?}", [&python, &worker])));
+    workshop.write(
+        "foreign.toml",
+        scene(&format!("command = {:?}", [&python, &worker])),
+    );
     workshop.write("built-in.toml", scene(r#"model = "oscillator""#));
     for settings in SETTINGS {
         let run = |name: &str| {
             let file = format!("{name}.toml");
             let mut arguments = vec!["run", &file, "--out", name, "--no-plots", "--quiet"];
-            let sets: Vec<String> = settings.split(' ').map(|set| format!("--set=coupling.{set}")).collect();
+            let sets: Vec<String> = settings
+                .split(' ')
+                .map(|set| format!("--set=coupling.{set}"))
+                .collect();
             arguments.extend(sets.iter().map(String::as_str));
             let mut command = workshop.command(&arguments);
             command.env("PYTHONPATH", &stubs);
@@ -106,12 +137,17 @@ fn it_agrees_with_the_built_in_worker_to_rounding() {
         for ((name, foreign), (_, own)) in run("foreign").iter().zip(&run("built-in")) {
             let allowed = match name {
                 // Accelerations are loads over a mass; residuals are nothing but rounding.
-                name if name.ends_with(".lambda") || name.ends_with(".a") => LARGEST_DIFFERENCE_OF_LOADS,
+                name if name.ends_with(".lambda") || name.ends_with(".a") => {
+                    LARGEST_DIFFERENCE_OF_LOADS
+                }
                 name if name.contains(".residual.") => continue,
                 _ => LARGEST_DIFFERENCE,
             };
             let difference = difference(foreign, own);
-            assert!(difference <= allowed, "{settings}: {name} differs by {difference:e}");
+            assert!(
+                difference <= allowed,
+                "{settings}: {name} differs by {difference:e}"
+            );
         }
         let run = workshop.read("foreign/run.json");
         let run: serde_json::Value = serde_json::from_str(&run).unwrap();
