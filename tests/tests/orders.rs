@@ -112,9 +112,6 @@ fn errors_at_one_macro_step_are_those_of_the_prototypes() {
     }
 }
 
-/// Time in s after which the multipliers no longer show the first steps.
-const SETTLED: f64 = 0.05;
-
 /// With degree 0 the multiplier is the mean over a step: of order 2 in its middle, of order 1 at its end.
 #[test]
 fn constant_multipliers_belong_to_the_middle_of_their_step() {
@@ -128,7 +125,7 @@ fn constant_multipliers_belong_to_the_middle_of_their_step() {
         let study = Study::new(&MACRO_STEPS, |h| {
             let scene = scene(coupling, h);
             let exact = closed_form(&scene);
-            let steps = run(&scene, Place::InProcess).after(SETTLED);
+            let steps = run(&scene, Place::InProcess).settled();
             Errors::of(&steps, |column, t| exact(column, t - h / 2.0))
         });
         assert_order_2(coupling, &study);
@@ -162,7 +159,7 @@ fn means_of_two_steps(trajectory: &Trajectory) -> Trajectory {
         means.rows[n][place] = (trajectory.rows[n][place] + trajectory.rows[n + 1][place]) / 2.0;
     }
     means.rows.pop();
-    means.after(SETTLED)
+    means.settled()
 }
 
 fn assert_order_2(coupling: &str, study: &Study) {

@@ -11,9 +11,6 @@ use linchpin_tests::scenes::with_settings;
 
 const MACRO_STEPS: [f64; 4] = [1e-3, 5e-4, 2.5e-4, 1.25e-4];
 
-/// Time in s after which the multipliers no longer show the first steps.
-const SETTLED: f64 = 0.05;
-
 /// The orders are those of two masses (`shortened_steps.rs`).
 const ORDERS: [(&str, [f64; 3]); 8] = [
     (
@@ -67,7 +64,7 @@ fn assert_orders_of(masses: usize, links: &[(usize, usize)]) {
             let coupling = format!("{coupling} macro_step={h:e}");
             let scene = with_settings(&text, &coupling, &[&velocities]);
             Errors::of(
-                &run(&scene, Place::InProcess).after(SETTLED),
+                &run(&scene, Place::InProcess).settled(),
                 closed_form(&scene),
             )
         })
