@@ -37,7 +37,7 @@ fn a_full_worker_refuses_until_an_instance_ends(serve: Serve) {
 }
 
 fn an_idle_instance_gives_way(serve: Serve) {
-    let idle = Duration::from_millis(200);
+    let idle = Duration::from_millis(300);
     let host = host_with(Limits {
         instances: 2,
         idle,
@@ -57,20 +57,20 @@ fn an_idle_instance_gives_way(serve: Serve) {
 /// A step may take longer than an instance may be idle.
 #[test]
 fn an_instance_that_computes_is_not_idle() {
-    let idle = Duration::from_millis(50);
+    let idle = Duration::from_millis(300);
     let host = host_with(Limits {
         instances: 1,
         idle,
         ..Limits::default()
     });
     let mut slow = tank(5);
-    slow.parameters.insert("pause".into(), number(0.4));
+    slow.parameters.insert("pause".into(), number(0.8));
     let mut driver = Driver::initialize(host.clone(), &slow);
     let step = std::thread::spawn(move || {
         driver.step(0.0, 0.5, vec![constant(0, 0.0)]).unwrap();
         driver
     });
-    std::thread::sleep(4 * idle);
+    std::thread::sleep(idle + idle / 2);
     failure(host.initialize(&tank(6))).unwrap_err();
     let driver = step.join().unwrap();
     failure(host.initialize(&tank(6))).unwrap_err();

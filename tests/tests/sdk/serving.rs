@@ -1,13 +1,12 @@
-//! What the server adds: health, reflection, limits, shutdown, addresses.
+//! What the server adds: health, reflection, limits, shutdown.
 
-use std::os::unix::net::UnixListener;
 use std::time::{Duration, Instant};
 
 use linchpin_master::connection::new_runtime;
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::worker_client::WorkerClient;
 use linchpin_proto::v1::{self, Severity};
-use linchpin_worker::server::{Address, GRACE, ListenError, MESSAGE_LIMIT, Reach, Server};
+use linchpin_worker::server::{GRACE, MESSAGE_LIMIT};
 use tokio_stream::StreamExt;
 use tonic::transport::{Channel, Endpoint};
 use tonic_health::pb::health_check_response::ServingStatus;
@@ -125,7 +124,7 @@ fn shutdown_does_not_wait_for_an_open_stream() {
     served.stop();
     served.wait();
     assert!(
-        started.elapsed() < GRACE + Duration::from_secs(1),
+        started.elapsed() < GRACE + Duration::from_secs(3),
         "{:?}",
         started.elapsed()
     );
@@ -175,44 +174,4 @@ fn a_refused_exchange_leaves_the_stream_open() {
             .exchange(None, Some(predict(constant(0, 1.0))))
             .unwrap();
     }
-}
-
-#[test]
-fn addresses_that_cannot_be_listened_on() {
-    let folder = tempfile::tempdir().unwrap();
-    let socket = folder.path().join("worker.sock");
-    let bind = |address: &str, reach| {
-        let address: Address = address.parse().unwrap();
-        let runtime = new_runtime().unwrap();
-        runtime
-            .block_on(Server::bind(host(), address, reach))
-            .map(|server| server.address().to_string())
-    };
-    let unix = format!("unix:{}", socket.display());
-
-    let living = UnixListener::bind(&socket).unwrap();
-    let error = bind(&unix, Reach::Local).unwrap_err();
-    assert!(matches!(error, ListenError::InUse { .. }), "{error}");
-    drop(living);
-    assert!(
-        socket.exists(),
-        "a worker that was killed leaves its socket"
-    );
-    assert_eq!(bind(&unix, Reach::Local).unwrap(), unix);
-
-    std::fs::remove_file(&socket).unwrap();
-    std::fs::write(&socket, "something of value").unwrap();
-    bind(&unix, Reach::Local).unwrap_err();
-    assert_eq!(
-        std::fs::read_to_string(&socket).unwrap(),
-        "something of value"
-    );
-
-    let error = bind("unix:/nowhere/at/all.sock", Reach::Local).unwrap_err();
-    assert!(matches!(error, ListenError::System { .. }), "{error}");
-
-    let error = bind("0.0.0.0:0", Reach::Local).unwrap_err();
-    assert!(error.to_string().contains("--allow-remote"), "{error}");
-    bind("0.0.0.0:0", Reach::Anyone).unwrap();
-    assert!(!bind("127.0.0.1:0", Reach::Local).unwrap().ends_with(":0"));
 }
