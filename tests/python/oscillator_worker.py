@@ -65,11 +65,11 @@ class Oscillator:
     def force(self, signals):
         """The signal of the only input, f; without one f is 0."""
         force = signals[0] if signals else pb.Signal(nodes=[0.0], values=[0.0])
-        named = len(signals) <= 1 and (not signals or force.input < len(self.inputs))
-        require(named, f"signals = {list(signals)}: one is allowed for each of the inputs {self.inputs}")
         nodes, values = list(force.nodes), list(force.values)
-        distinct = 1 <= len(nodes) == len(set(nodes)) == len(values) <= 8 and all(map(math.isfinite, nodes + values))
-        require(distinct, f"nodes = {nodes}, values = {values}: 1 to 8 points are allowed, finite and distinct")
+        driven = not signals or len(signals) == 1 and force.input < len(self.inputs)
+        points = 1 <= len(set(nodes)) == len(nodes) == len(values) <= 8 and all(map(math.isfinite, nodes + values))
+        allowed = f"one for each of the inputs {self.inputs}, through 1 to 8 finite points at distinct times"
+        require(driven and points, f"signals = {list(signals)}: allowed is {allowed}")
         return force
 
     def end(self, step, signals):
@@ -139,7 +139,7 @@ def sequenced(act):
 
 
 class Worker(worker_pb2_grpc.WorkerServicer):
-    """The unary calls; they come one after the other, since the server has one thread."""
+    """The unary calls, one at a time. Those with a sequence number act on the instance that they name."""
 
     def __init__(self):
         self.instances = {}
