@@ -93,3 +93,10 @@ fn a_worker_ends_with_whoever_started_it_if_asked() {
     let workshop = Workshop::new();
     workshop.run(&["worker", "--exit-with-stdin"]).succeeds();
 }
+
+#[test]
+fn a_worker_that_may_have_no_instance() {
+    let workshop = Workshop::new();
+    let outcome = workshop.run(&["worker", "--exit-with-stdin", "--max-instances", "0"]);
+    outcome.fails(2, &["--max-instances", "1.."]);
+}

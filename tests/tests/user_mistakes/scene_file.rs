@@ -235,6 +235,20 @@ fn an_output_that_does_not_exist() {
 }
 
 #[test]
+fn cases_whose_results_would_go_to_one_folder() {
+    let case =
+        |name: &str| format!("[[case]]\nname = \"{name}\"\nset = {{ \"coupling.degree\" = 1 }}\n");
+    let cases = [case("k = 1"), case("k: 1"), "[output]".to_owned()].concat();
+    refused(
+        &[("[output]", &cases)],
+        "k: 1",
+        &["folder k-1", "case \"k = 1\""],
+    );
+    let cases = [case("!?"), "[output]".to_owned()].concat();
+    refused(&[("[output]", &cases)], "!?", &["no folder can be named"]);
+}
+
+#[test]
 fn a_file_that_is_no_scene() {
     let workshop = Workshop::new();
     workshop

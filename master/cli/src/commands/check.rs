@@ -5,7 +5,7 @@ use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Case, Scene, Served};
 
 use super::CommandError;
-use super::common::{SceneArguments, print, warn};
+use super::common::{SceneArguments, case_folders, print, warn};
 use crate::connect::{Connector, Place};
 
 /// Validate a scene without starting anything
@@ -23,6 +23,7 @@ pub struct Arguments {
 /// Checks the scene and all its cases.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
+    case_folders(&scene)?;
     check(&scene)?;
     for case in &scene.cases {
         check_case(&scene, case)?;

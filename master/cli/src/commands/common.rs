@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use linchpin_master::scene::{self, Override, Scene, warnings};
+use linchpin_master::scene::{self, Override, Scene, SceneErrors, warnings};
 
 use super::CommandError;
 
@@ -98,8 +98,34 @@ pub fn warn(text: impl Display) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
+/// The folders that take the results of the cases of a scene, each its own.
+///
+/// # Errors
+/// A name that gives no folder, or the folder of another case.
+pub fn case_folders(scene: &Scene) -> Result<Vec<String>, SceneErrors> {
+    let mut folders: Vec<String> = Vec::new();
+    for case in &scene.cases {
+        let refuse = |message| {
+            let help = "choose a name that differs in letters, digits, - or _".to_owned();
+            scene.error(&format!("case.{}.name", case.name), message, Some(help))
+        };
+        let folder = file_name(&case.name);
+        if folder.is_empty() {
+            return Err(refuse("no folder can be named after this case".to_owned()));
+        }
+        if let Some(earlier) = folders.iter().position(|taken| *taken == folder) {
+            let earlier = &scene.cases[earlier].name;
+            return Err(refuse(format!(
+                "the results would go to the folder {folder}, as those of case \"{earlier}\" do"
+            )));
+        }
+        folders.push(folder);
+    }
+    Ok(folders)
+}
+
 /// A name that can be part of a path: letters, digits, `-`, `_` and `.` stay, runs of anything else become one `-`.
-pub fn file_name(name: &str) -> String {
+fn file_name(name: &str) -> String {
     let mut safe = String::with_capacity(name.len());
     for character in name.chars() {
         if character.is_alphanumeric() || matches!(character, '-' | '_' | '.') {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
 use linchpin_master::scene::is_worker_address;
-use linchpin_proto::contract::Contract;
+use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{self, DescribeReply, Model, Variable};
 use linchpin_proto::version::{PROTOCOL, negotiate};
 
@@ -48,9 +48,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         start: limit,
         answer: limit,
     };
-    let failed = |source| CommandError::Start {
+    let failed = |source: CallError| CommandError::Start {
         address: arguments.address.clone(),
-        source: linchpin_master::connection::StartError::Call(source),
+        source: Box::new(source.into()),
     };
     let worker = Grpc::connect(
         &arguments.address,

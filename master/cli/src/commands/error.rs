@@ -82,7 +82,7 @@ pub enum CommandError {
         /// The address.
         address: String,
         /// Why.
-        source: StartError,
+        source: Box<StartError>,
     },
     /// The worker speaks another protocol.
     #[error("{address}: {source}")]

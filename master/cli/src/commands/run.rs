@@ -7,7 +7,7 @@ use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, file_name, prepare_folder, print};
+use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print};
 use crate::connect::{Connector, Place};
 use crate::interrupt;
 use crate::results::{RunRecorder, RunReport, draw};
@@ -56,6 +56,7 @@ impl Arguments {
 /// Runs the scene, or all its cases.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
+    let case_folders = case_folders(&scene)?;
     let folder = arguments.output.prepare(&scene)?;
     let job = Job {
         arguments,
@@ -66,8 +67,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if scene.cases.is_empty() {
         reports.push(job.run(&scene, None, &folder)?);
     }
-    for case in &scene.cases {
-        let own = folder.join(file_name(&case.name));
+    for (case, own) in scene.cases.iter().zip(case_folders) {
+        let own = folder.join(own);
         prepare_folder(&own)?;
         let scene = scene.with_case(case)?;
         let report = job.run(&scene, Some(&case.name), &own);
