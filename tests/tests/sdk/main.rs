@@ -8,6 +8,7 @@ mod exchange;
 mod initialize;
 mod instances;
 mod peer;
+mod repeated_steps;
 mod scripted;
 mod sequence;
 mod serving;

@@ -12,7 +12,8 @@ pub const START: f64 = 0.375;
 pub const LEAK: f64 = 0.21;
 
 /// The input `inflow` must be driven; `leak` has a default. A step that ends above the parameter `capacity` fails after
-/// it has changed the level, one that ends below 0 panics. Every step sleeps for `pause` seconds.
+/// it has changed the level, one that ends below 0 panics. Every step sleeps for `pause` seconds. The output `repeated`
+/// is 1 after a step that repeated the internal steps of the one before, otherwise 0.
 pub struct Tank;
 
 struct Filling {
@@ -20,6 +21,7 @@ struct Filling {
     capacity: f64,
     pause: Duration,
     steps: u64,
+    repeated: bool,
 }
 
 const INFLOW: usize = 0;
@@ -41,7 +43,9 @@ impl Model for Tank {
         v1::Model {
             name: "tank".into(),
             inputs: vec![variable("inflow", None), variable("leak", Some(LEAK))],
-            outputs: vec![variable("level", None), variable("rate", None)],
+            outputs: ["level", "rate", "repeated"]
+                .map(|name| variable(name, None))
+                .into(),
             parameters: vec![parameter("capacity", None), parameter("pause", Some(0.0))],
             ..v1::Model::default()
         }
@@ -53,6 +57,7 @@ impl Model for Tank {
             capacity: setup.positive_parameter("capacity")?,
             pause: Duration::from_secs_f64(setup.non_negative_parameter("pause")?),
             steps: 0,
+            repeated: false,
         }))
     }
 }
@@ -61,6 +66,7 @@ impl Subsystem for Filling {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         std::thread::sleep(self.pause);
         self.steps += 1;
+        self.repeated = false;
         let volume = |input| {
             let powers = inputs.polynomial(input).powers(interval.length);
             let mean: f64 = (1u8..).zip(powers).map(|(n, a)| a / f64::from(n)).sum();
@@ -77,6 +83,12 @@ impl Subsystem for Filling {
         Ok(())
     }
 
+    fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+        let done = self.step(interval, inputs);
+        self.repeated = true;
+        done
+    }
+
     fn outputs(
         &mut self,
         _t: f64,
@@ -85,7 +97,9 @@ impl Subsystem for Filling {
         values: &mut [f64],
     ) -> Result<(), StepFailure> {
         for (value, &output) in values.iter_mut().zip(wanted) {
-            *value = [self.level, inputs[INFLOW] - inputs[LEAK_INPUT]][output];
+            let rate = inputs[INFLOW] - inputs[LEAK_INPUT];
+            let repeated = f64::from(u8::from(self.repeated));
+            *value = [self.level, rate, repeated][output];
         }
         Ok(())
     }
