@@ -6,7 +6,7 @@ use std::os::unix::net::UnixListener;
 use linchpin_tests::process::{Running, Workshop};
 use rustix::process::Signal;
 
-fn listen<'a>(address: &'a str) -> [&'a str; 3] {
+fn listen(address: &str) -> [&str; 3] {
     ["worker", "--listen", address]
 }
 
