@@ -188,8 +188,8 @@ impl<'a, 'b> Probe<'a, 'b> {
         let sizes = map.sizes(&map.sizes(&mixed));
         for (row, (&found, &expected)) in reached.iter().zip(&expected).enumerate() {
             let size = mixed[row].abs() + sizes[row];
-            // Written so that a difference that is not a number counts.
-            if !((found - expected).abs() <= LINEAR * size) {
+            let difference = (found - expected).abs();
+            if difference.is_nan() || difference > LINEAR * size {
                 return Err(ProbeError::NotLinear {
                     column: self.coordinates[row].column.clone(),
                     found: found / UNIT,

@@ -26,7 +26,7 @@ pub enum CommandError {
     #[error("{source}\n  note: {} has the rows up to there", table.display())]
     Stopped {
         /// Why.
-        source: RunError,
+        source: Box<RunError>,
         /// The table of results.
         table: PathBuf,
     },
@@ -109,11 +109,10 @@ impl CommandError {
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Case { source, .. } => source.exit_code(),
-            Self::Run(RunError::Interrupted { .. })
-            | Self::Stopped {
-                source: RunError::Interrupted { .. },
-                ..
-            } => interrupt::EXIT_CODE,
+            Self::Run(RunError::Interrupted { .. }) => interrupt::EXIT_CODE,
+            Self::Stopped { source, .. } if matches!(**source, RunError::Interrupted { .. }) => {
+                interrupt::EXIT_CODE
+            }
             Self::NothingToStudy { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,
@@ -132,7 +131,10 @@ impl CommandError {
     /// What ended a simulation; `table` is where the rows are that it recorded, if there are any.
     pub fn from_simulation(error: SimulateError<Self>, table: Option<PathBuf>) -> Self {
         match (error, table) {
-            (SimulateError::Run(source), Some(table)) => Self::Stopped { source, table },
+            (SimulateError::Run(source), Some(table)) => Self::Stopped {
+                source: Box::new(source),
+                table,
+            },
             (SimulateError::Run(source), None) => Self::Run(source),
             (SimulateError::Record(error), _) => error,
         }
