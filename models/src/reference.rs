@@ -1,10 +1,21 @@
-//! Closed forms that coupled runs are compared with.
+//! Solutions of coupled problems that are found without coupling.
 //!
-//! * [`FreeOscillation`]: one mass on a spring and a damper, without a force;
-//! * [`LinkedOscillators`]: several of them, held together by rigid links, with the force in every link.
+//! * [`FreeOscillation`]: one mass on a spring and a damper, without a force, in closed form;
+//! * [`LinkedOscillators`]: several of them, held together by rigid links, with the force in every link;
+//! * [`DoublePendulum`], [`Chain`]: linked pendulums in minimal coordinates, with the force in every hinge, integrated
+//!   to a tolerance of 1e-12.
 
+mod chain;
+mod double_pendulum;
+mod error;
 mod free;
 mod linked;
+mod links;
+mod trajectory;
 
+pub use chain::Chain;
+pub use double_pendulum::DoublePendulum;
+pub use error::ReferenceError;
 pub use free::{FreeOscillation, Motion};
 pub use linked::{LinkError, LinkedOscillators};
+pub use links::{GroundHinge, Link, LinkMotion};

@@ -1,6 +1,6 @@
 //! The polynomial of a coupling variable over one macro step.
 //!
-//! A [`Signal`](crate::v1::Signal) gives nodes and values; the polynomial through them is
+//! A [`Signal`] gives nodes and values; the polynomial through them is
 //! `p(tau) = c_0 + c_1 (tau - n_0) + c_2 (tau - n_0)(tau - n_1) + ...` with the divided differences `c_i`
 //! (Newton's form of the Lagrange polynomial, S1 eqs. 56, 59 and 69). `tau` is the time since the start of the step.
 

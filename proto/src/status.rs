@@ -14,6 +14,11 @@ use crate::v1::{Failure, Severity};
 /// Domain of the error details.
 pub const DOMAIN: &str = "linchpin";
 
+/// Longest message and longest other text of a status, in bytes. A status travels in HTTP headers, and peers drop those
+/// beyond some 16 kB; the message is in there twice, once with up to three bytes for one.
+const LONGEST_MESSAGE: usize = 2048;
+const LONGEST_TEXT: usize = 256;
+
 /// The status that a worker answers with.
 pub fn to_status(error: &CallError) -> Status {
     match error {
@@ -37,13 +42,25 @@ fn from_failure(failure: &Failure) -> Status {
     let mut metadata = HashMap::new();
     let texts = [("field", &failure.field), ("variable", &failure.variable)];
     for (key, text) in texts {
-        metadata.extend(text.iter().map(|text| (key.to_owned(), text.clone())));
+        metadata.extend(
+            text.iter()
+                .map(|text| (key.to_owned(), shortened(text, LONGEST_TEXT))),
+        );
     }
     for (key, number) in [("t", failure.t), ("step", failure.step)] {
         metadata.extend(number.map(|number| (key.to_owned(), number.to_string())));
     }
     let details = ErrorDetails::with_error_info(failure.severity().as_str_name(), DOMAIN, metadata);
-    Status::with_error_details(code, failure.message.clone(), details)
+    Status::with_error_details(code, shortened(&failure.message, LONGEST_MESSAGE), details)
+}
+
+fn shortened(text: &str, longest: usize) -> String {
+    if text.len() <= longest {
+        return text.to_owned();
+    }
+    let is_boundary = |end: &usize| text.is_char_boundary(*end);
+    let end = (0..=longest).rev().find(is_boundary).unwrap_or_default();
+    format!("{} ... ({} more bytes)", &text[..end], text.len() - end)
 }
 
 /// What a status of a worker means to its master. `call` is the call that was answered so.
@@ -104,6 +121,24 @@ mod tests {
         };
         let error = CallError::Failed(failure);
         assert_eq!(to_error("Step", &to_status(&error)), error);
+    }
+
+    #[test]
+    fn a_long_message_says_how_much_is_missing() {
+        let failure = Failure::misuse("m".repeat(9000), "\u{e9}".repeat(5000));
+        let status = to_status(&CallError::Failed(failure));
+        let message = status.message();
+        assert!(
+            message.len() < 2100 && message.ends_with("(7952 more bytes)"),
+            "{message}"
+        );
+        let CallError::Failed(told) = to_error("Step", &status) else {
+            panic!("{status:?}")
+        };
+        assert!(
+            told.field
+                .is_some_and(|field| field.ends_with("(8744 more bytes)"))
+        );
     }
 
     #[test]

@@ -1,247 +1,221 @@
-"""A foreign worker: the model "oscillator" behind the contract linchpin.v1, in plain Python.
+"""A worker in plain Python: a mass on a spring and a damper behind the contract linchpin.v1.
 
-grpcio and the stubs generated from worker.proto, no SDK, unary calls only: this is all that the contract asks of
-somebody who writes a worker in another language.
+The example to start from: put your solver in the place of MODEL and Oscillator. It takes grpcio and the stubs generated
+from worker.proto; setup.sh brings both:
+
+    bash setup.sh /tmp/python
+    PYTHONPATH=/tmp/python/stubs /tmp/python/venv/bin/python oscillator_worker.py --listen 127.0.0.1:50051
 """
 
-import argparse
 import math
 import signal
-import time
+import sys
 from concurrent import futures
 
 import grpc
+from grpc import StatusCode
 from linchpin.v1 import worker_pb2 as pb
 from linchpin.v1 import worker_pb2_grpc
-from oscillator import MAX_NODES, Oscillator, Polynomial
 
 PROTOCOL = pb.ProtocolVersion(major=1, minor=0)
-PARAMETERS = {
-    "m": pb.Parameter(name="m", unit="kg", description="mass"),
-    "c": pb.Parameter(name="c", unit="N/m", description="stiffness of the spring to the ground"),
-    "d": pb.Parameter(name="d", unit="N*s/m", description="damping against the ground"),
-    "x0": pb.Parameter(name="x0", unit="m", description="position at the start", default=0.0),
-    "v0": pb.Parameter(name="v0", unit="m/s", description="velocity at the start", default=0.0),
-}
-INPUTS = {"f": pb.Variable(name="f", unit="N", description="external force", default=0.0)}
-OUTPUTS = {
-    "x": pb.Variable(name="x", unit="m", description="position"),
-    "v": pb.Variable(name="v", unit="m/s", description="velocity"),
-    "a": pb.Variable(name="a", unit="m/s^2", description="acceleration"),
-}
 MODEL = pb.Model(
     name="oscillator",
-    description="m v' = -c x - d v + f, x' = v",
-    inputs=INPUTS.values(),
-    outputs=OUTPUTS.values(),
-    parameters=PARAMETERS.values(),
+    description="m a = -c x - d v + f",
+    inputs=[pb.Variable(name="f", unit="N", default=0.0)],
+    outputs=[pb.Variable(name=name, unit=unit) for name, unit in (("x", "m"), ("v", "m/s"), ("a", "m/s^2"))],
+    parameters=[pb.Parameter(name=name, unit=unit) for name, unit in (("m", "kg"), ("c", "N/m"), ("d", "N s/m"))]
+    + [pb.Parameter(name=name, unit=unit, default=0.0) for name, unit in (("x0", "m"), ("v0", "m/s"))],
     markers=[pb.Marker(name="mass", kind="MARKER_KIND_SCALAR", position="x", velocity="v", acceleration="a", load="f")],
-    solvers=[pb.SolverKind(name="exact", description="power series, exact up to rounding")],
     states=[pb.StateVariable(output="x", initial="x0"), pb.StateVariable(output="v", initial="v0")],
-    capabilities=pb.Capabilities(exchange=False, repeats_step_sequence=True, max_input_degree=MAX_NODES - 1),
+    capabilities=pb.Capabilities(repeats_step_sequence=True, max_input_degree=7),
 )
 
 
-class Refusal(Exception):
-    """A refused request with its gRPC code. What is out of range is a ValueError and becomes INVALID_ARGUMENT."""
-
-    def __init__(self, code, message):
-        super().__init__(message)
-        self.code = code
+class Refused(Exception):
+    """Refused(text, status code): the request is not carried out and nothing has changed."""
 
 
-def misplaced(message):
-    return Refusal(grpc.StatusCode.FAILED_PRECONDITION, message)
+def require(condition, text, code=StatusCode.INVALID_ARGUMENT):
+    if not condition:
+        raise Refused(text, code)
 
 
-def negotiate(theirs):
-    if theirs.major != PROTOCOL.major:
-        raise misplaced(
-            f"incompatible protocol: this worker speaks linchpin {PROTOCOL.major}.{PROTOCOL.minor}, the other side"
-            f" speaks {theirs.major}.{theirs.minor}; use builds with the same major number"
-        )
-
-
-def known(field, names, allowed):
-    """`names`, if the model has all of them."""
-    for name in names:
-        if name not in allowed:
-            raise ValueError(f"{field}: there is no '{name}', only {', '.join(map(str, allowed)) or 'none'}")
-    return list(names)
-
-
-def parameter_values(given):
-    values = {name: parameter.default for name, parameter in PARAMETERS.items() if parameter.HasField("default")}
-    for name, value in given.items():
-        known(f"parameters.{name} = {str(value).strip()}", [name], PARAMETERS)
-        if value.WhichOneof("kind") != "number" or not math.isfinite(value.number):
-            raise ValueError(f"parameters.{name} = {str(value).strip()}: it must be a finite number")
-        values[name] = value.number
-    missing = [name for name in PARAMETERS if name not in values]
-    if missing:
-        raise ValueError(f"parameters: {', '.join(missing)} must be given")
-    return values
-
-
-class Instance:
-    """One oscillator at one point of time, its kept states and its last answer."""
+class Oscillator:
+    """One instance of the model with its snapshots and its last answer. SI units."""
 
     def __init__(self, request):
-        known("model", [request.model], [MODEL.name])
-        if request.HasField("solver"):
-            known("solver.kind", [request.solver.kind], ["exact"])
-            known("solver.options", request.solver.options, [])
-        values = parameter_values(request.parameters)
-        self.state = values.pop("x0"), values.pop("v0")
-        self.oscillator = Oscillator(**values)
-        self.inputs = known("inputs", request.inputs, INPUTS)
-        self.coupling = known("coupling_outputs", request.coupling_outputs, OUTPUTS)
-        self.recorded = known("recorded_outputs", request.recorded_outputs, OUTPUTS)
-        self.snapshots = {}
-        self.taken = 0
-        self.initialized = request
-        self.sequence = request.sequence
-        self.last_kind = type(request)
-        self.last_answer = pb.InitializeReply()
-
-    def answer_once(self, request, act):
-        """What `act` answers or raises; if this sequence number had its answer, that answer again."""
-        if request.sequence == self.sequence + 1:
-            self.sequence, self.last_kind = request.sequence, type(request)
-            try:
-                self.last_answer = act(self, request)
-            except (Refusal, ValueError) as refusal:
-                self.last_answer = refusal
-        elif request.sequence != self.sequence:
-            raise misplaced(f"sequence = {request.sequence}: next is {self.sequence + 1}, or {self.sequence} again")
-        elif self.last_kind is not type(request):
-            raise misplaced(f"sequence = {request.sequence} was a {self.last_kind.__name__}")
-        if isinstance(self.last_answer, Exception):
-            raise self.last_answer
-        return self.last_answer
-
-    def force(self, signals):
-        known("signals.input", [one.input for one in signals], range(len(self.inputs)))
-        if len(signals) > 1:
-            raise ValueError(f"signals: {len(signals)} for the one input f, one is allowed")
-        return Polynomial(signals[0].nodes, signals[0].values) if signals else Polynomial([0.0], [0.0])
+        given = {name: one.number if one.HasField("number") else math.nan for name, one in request.parameters.items()}
+        numbers = {"m": math.nan, "c": math.nan, "d": math.nan, "x0": 0.0, "v0": 0.0, **given}
+        self.m, self.c, self.d, x, v, *unknown = numbers.values()
+        fits = self.m > 0.0 and self.c >= 0.0 and self.d >= 0.0 and all(map(math.isfinite, numbers.values()))
+        require(fits and not unknown, f"parameters = {given}: m > 0, c >= 0, d >= 0, x0 and v0 are allowed, all of them finite")
+        self.inputs, self.coupling = list(request.inputs), list(request.coupling_outputs)
+        self.all = self.coupling + list(request.recorded_outputs)
+        require(self.inputs in ([], ["f"]), f"inputs = {self.inputs}: there is no input but f")
+        self.state = x, v
+        self.outputs(self.all, x, v, 0.0)
+        self.snapshots, self.taken = {}, 0
+        self.last, self.answer = request, None
 
     def outputs(self, names, x, v, f):
-        values = {"x": x, "v": v, "a": self.oscillator.acceleration(x, v, f)}
+        values = {"x": x, "v": v, "a": (f - self.c * x - self.d * v) / self.m}
+        require(values.keys() >= set(names), f"outputs = {list(names)}: there is no output but x, v and a")
         return pb.Outputs(values=[values[name] for name in names])
 
-    def integrate(self, request, signals, work):
-        """Position, velocity and force at the end of a step from the present state, which stays as it is."""
-        started = time.perf_counter_ns()
-        force = self.force(signals)
-        x, v = self.oscillator.advance(*self.state, request.step, force)
-        work.integrations += 1
-        work.steps += self.oscillator.parts(request.step)
-        work.nanoseconds += time.perf_counter_ns() - started
-        return x, v, force.value(request.step)
+    def force(self, signals):
+        """The signal of the only input, f; without one f is 0."""
+        force = signals[0] if signals else pb.Signal(nodes=[0.0], values=[0.0])
+        nodes, values = list(force.nodes), list(force.values)
+        driven = not signals or len(signals) == 1 and force.input < len(self.inputs)
+        points = 1 <= len(set(nodes)) == len(nodes) == len(values) <= 8 and all(map(math.isfinite, nodes + values))
+        allowed = f"one for each of the inputs {self.inputs}, through 1 to 8 finite points at distinct times"
+        require(driven and points, f"signals = {list(signals)}: allowed is {allowed}")
+        return force
 
-    def step(self, request):
-        work = pb.Work()
-        x, v, f = self.integrate(request, request.signals, work)
-        self.state = x, v
-        names = self.coupling + (self.recorded if request.outputs == pb.OUTPUT_SET_ALL else [])
-        return pb.StepReply(outputs=self.outputs(names, x, v, f), work=work)
-
-    def perturbed_step(self, request):
-        work = pb.Work()
-        # f is the only input, so each perturbed signal replaces all that `signals` holds.
-        ends = [self.integrate(request, [one], work) for one in request.perturbed]
-        return pb.PerturbedStepReply(outputs=[self.outputs(self.coupling, *end) for end in ends], work=work)
-
-    def evaluate(self, request):
-        names = known("outputs", request.outputs, OUTPUTS)
-        return pb.EvaluateReply(outputs=self.outputs(names, *self.state, self.force(request.signals).value(0.0)))
-
-    def snapshot(self, request):
-        self.snapshots.pop(request.replaces, None)
-        self.taken += 1
-        self.snapshots[self.taken] = self.state
-        return pb.SnapshotReply(snapshot=self.taken)
-
-    def restore(self, request):
-        if request.snapshot not in self.snapshots:
-            raise Refusal(grpc.StatusCode.NOT_FOUND, f"snapshot = {request.snapshot}: kept are {list(self.snapshots)}")
-        self.state = self.snapshots[request.snapshot]
-        return pb.RestoreReply()
+    def end(self, step, signals):
+        """Position, velocity and force `step` seconds later; the state stays. Power series in s = t/h over parts of
+        length h that are short beside 1/omega and m/d: x = sum of xs[n] s^n, h v = sum of ws[n] s^n."""
+        force, (x, v) = self.force(signals), self.state
+        parts = step * max(math.sqrt(self.c / self.m), self.d / self.m)
+        require(step > 0.0 and parts < 1e5, f"step = {step} s: above 0 and below 1e5 times 1/omega and m/d is allowed")
+        parts = max(1, math.ceil(parts))
+        h = step / parts
+        for part in range(parts):
+            f, xs, ws = powers(force, part * h, h), [x], [h * v]
+            for n in range(20):
+                load = (f[n] if n < len(f) else 0.0) - self.c * xs[n]
+                xs.append(ws[n] / (n + 1))
+                ws.append((h * h * load - h * self.d * ws[n]) / self.m / (n + 1))
+            x, v = math.fsum(xs), v + math.fsum(ws[1:]) / h
+        return x, v, powers(force, step, 0.0)[0]
 
 
-def unary(answer):
-    """A gRPC handler around `answer(worker, request)`: refusals become statuses."""
+def powers(force, start, scale):
+    """Coefficients a_j of p(start + scale s) = a_0 + a_1 s + ..; p passes through the points of a Signal (Newton)."""
+    nodes, differences = force.nodes, list(force.values)
+    for order in range(1, len(nodes)):
+        for i in reversed(range(order, len(nodes))):
+            differences[i] = (differences[i] - differences[i - 1]) / (nodes[i] - nodes[i - order])
+    result = [0.0] * len(nodes)
+    for node, difference in zip(reversed(nodes), reversed(differences)):
+        shift = start - node
+        result = [difference + shift * result[0]] + [scale * a + shift * b for a, b in zip(result, result[1:])]
+    return result
+
+
+def call(answer):
+    """The gRPC handler of a call that `answer(worker, request)` answers or refuses."""
 
     def handler(worker, request, context):
         try:
             return answer(worker, request)
-        except Refusal as refusal:
-            context.abort(refusal.code, str(refusal))
-        except ValueError as out_of_range:
-            context.abort(grpc.StatusCode.INVALID_ARGUMENT, str(out_of_range))
+        except Refused as refused:
+            text, code = refused.args
+            context.abort(code, text)
 
     return handler
 
 
 def sequenced(act):
-    """A gRPC handler around `act(instance, request)` that acts once for every sequence number."""
-    return unary(lambda worker, request: worker.instance(request).answer_once(request, act))
+    """A call that changes an instance: a repeated number gets its first answer, so a lost answer never steps twice."""
+
+    def answer_once(worker, request):
+        one = worker.instance(request)
+        number, last = one.last.sequence, type(one.last)
+        if request.sequence == number + 1:
+            one.last = request
+            try:
+                one.answer = act(one, request)
+            except Refused as refused:
+                one.answer = refused
+        else:
+            text = f"sequence = {request.sequence}: {number} was the last, a {last.__name__}, and {number + 1} is next"
+            require(request.sequence == number and type(request) is last, text, StatusCode.FAILED_PRECONDITION)
+        if isinstance(one.answer, Refused):
+            raise one.answer
+        return one.answer
+
+    return call(answer_once)
 
 
 class Worker(worker_pb2_grpc.WorkerServicer):
-    """The unary calls. The server has one thread, so that calls never overlap."""
+    """The unary calls, one at a time. Those with a sequence number act on the instance that they name."""
 
     def __init__(self):
         self.instances = {}
 
     def instance(self, request):
-        if request.instance not in self.instances:
-            raise Refusal(grpc.StatusCode.NOT_FOUND, f"instance = {request.instance}: it was not initialized")
+        require(request.instance in self.instances, f"instance = {request.instance} is not here", StatusCode.NOT_FOUND)
         return self.instances[request.instance]
 
-    @unary
+    @call
     def Describe(self, request):
         return pb.DescribeReply(protocol=PROTOCOL, worker="oscillator_worker.py", worker_version="1", models=[MODEL])
 
-    @unary
+    @call
     def Initialize(self, request):
-        negotiate(request.protocol)
-        existing = self.instances.get(request.instance)
-        if existing and existing.initialized != request:
-            raise Refusal(grpc.StatusCode.ALREADY_EXISTS, f"instance = {request.instance}: terminate it first")
-        self.instances[request.instance] = existing or Instance(request)
+        ours, theirs = (f"{one.major}.{one.minor}" for one in (PROTOCOL, request.protocol))
+        text = f"this worker speaks linchpin {ours}, its master {theirs}: the first numbers must be equal"
+        require(request.protocol.major == PROTOCOL.major, text, StatusCode.FAILED_PRECONDITION)
+        only = f"model = {request.model}: there is only {MODEL.name}, and no choice of solvers"
+        require(request.model == MODEL.name and not request.HasField("solver"), only)
+        one = self.instances.get(request.instance) or Oscillator(request)
+        require(one.last == request, f"instance = {request.instance}: it exists already", StatusCode.ALREADY_EXISTS)
+        self.instances[request.instance] = one
         return pb.InitializeReply()
 
-    @unary
+    @call
     def Evaluate(self, request):
-        return self.instance(request).evaluate(request)
+        one = self.instance(request)
+        f = powers(one.force(request.signals), 0.0, 0.0)[0]
+        return pb.EvaluateReply(outputs=one.outputs(request.outputs, *one.state, f))
 
-    @unary
+    @call
     def Terminate(self, request):
         self.instances.pop(request.instance, None)
         return pb.TerminateReply()
 
-    Snapshot = sequenced(Instance.snapshot)
-    Restore = sequenced(Instance.restore)
-    Step = sequenced(Instance.step)
-    PerturbedStep = sequenced(Instance.perturbed_step)
+    @sequenced
+    def Step(one, request):
+        x, v, f = one.end(request.step, request.signals)
+        one.state = x, v
+        names = one.all if request.outputs == pb.OUTPUT_SET_ALL else one.coupling
+        return pb.StepReply(outputs=one.outputs(names, x, v, f), work=pb.Work(integrations=1))
+
+    @sequenced
+    def PerturbedStep(one, request):
+        # A perturbed signal replaces that of its input, and f is the only input.
+        outputs = [one.outputs(one.coupling, *one.end(request.step, [signal])) for signal in request.perturbed]
+        return pb.PerturbedStepReply(outputs=outputs, work=pb.Work(integrations=len(outputs)))
+
+    @sequenced
+    def Snapshot(one, request):
+        one.snapshots.pop(request.replaces, None)
+        one.taken += 1
+        one.snapshots[one.taken] = one.state
+        return pb.SnapshotReply(snapshot=one.taken)
+
+    @sequenced
+    def Restore(one, request):
+        kept = f"snapshot = {request.snapshot}: kept are {list(one.snapshots)}"
+        require(request.snapshot in one.snapshots, kept, StatusCode.NOT_FOUND)
+        one.state = one.snapshots[request.snapshot]
+        return pb.RestoreReply()
 
 
 def main():
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("--listen", required=True, metavar="ADDRESS", help="unix:/PATH or IP:PORT (0: any port)")
-    address = arguments.parse_args().listen
-    # Without so_reuseport = 0 a second worker on the same port would start and take half of the connections.
+    if len(sys.argv) != 3 or sys.argv[1] != "--listen":
+        sys.exit(f"usage: {sys.argv[0]} --listen ADDRESS, where ADDRESS is unix:/PATH or IP:PORT (port 0: any)")
+    address = sys.argv[2]
+    # Without so_reuseport = 0 a second worker could take half of the connections to a port.
     server = grpc.server(futures.ThreadPoolExecutor(max_workers=1), options=[("grpc.so_reuseport", 0)])
     worker_pb2_grpc.add_WorkerServicer_to_server(Worker(), server)
     port = server.add_insecure_port(address)
-    if not address.startswith("unix:"):
-        address = f"{address.rpartition(':')[0]}:{port}"
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, lambda *_: server.stop(grace=1.0))
     server.start()
-    print(f"listening on {address}", flush=True)
+    host = address.rpartition(":")[0]
+    print("listening on", address if host == "unix" else f"http://{host}:{port}", flush=True)
     server.wait_for_termination()
 
 

@@ -1,14 +1,23 @@
-"""The exact step of `oscillator.py` against the closed form in 50 digits."""
+"""The step of `oscillator_worker.py` against the closed form in 50 digits."""
 
 import itertools
 import math
 import unittest
 
 import mpmath
-from oscillator import MAX_NODES, Oscillator, Polynomial
+from linchpin.v1 import worker_pb2 as pb
+from oscillator_worker import Oscillator, Refused
 
 mpmath.mp.dps = 50
 START = (0.37, -2.9)
+
+
+def end(m, c, d, step, nodes, values):
+    """Position and velocity at the end of a step from START."""
+    numbers = {"m": m, "c": c, "d": d, "x0": START[0], "v0": START[1]}
+    parameters = {name: pb.Value(number=number) for name, number in numbers.items()}
+    oscillator = Oscillator(pb.InitializeRequest(parameters=parameters, inputs=["f"]))
+    return oscillator.end(step, [pb.Signal(nodes=nodes, values=values)])[:2]
 
 
 def closed_form(m, c, d, x0, v0, nodes, values, t):
@@ -35,7 +44,7 @@ def closed_form(m, c, d, x0, v0, nodes, values, t):
 
 class ExactStep(unittest.TestCase):
     def assert_matches(self, m, c, d, step, nodes, values, allowed):
-        x, v = Oscillator(m, c, d).advance(*START, step, Polynomial(nodes, values))
+        x, v = end(m, c, d, step, nodes, values)
         true_x, true_v = closed_form(m, c, d, *START, nodes, values, step)
         amplitude = math.hypot(true_x, true_v / math.sqrt(c / m))
         for got, true, scale in ((x, true_x, amplitude), (v, true_v, amplitude * math.sqrt(c / m))):
@@ -56,26 +65,30 @@ class ExactStep(unittest.TestCase):
 
     def test_free_mass_under_constant_force(self):
         step, force, m = 0.031, 5.3, 2.9
-        x, v = Oscillator(m, 0.0, 0.0).advance(*START, step, Polynomial([0.0], [force]))
+        x, v = end(m, 0.0, 0.0, step, [0.0], [force])
         self.assertAlmostEqual(v, START[1] + force / m * step, delta=1e-15)
         self.assertAlmostEqual(x, START[0] + START[1] * step + force / m * step**2 / 2, delta=1e-16)
 
     def test_what_is_out_of_range(self):
-        points = Polynomial([0.0], [1.0])
+        good = {"m": 1.0, "c": 1.0, "d": 0.0, "step": 1.0, "nodes": [0.0], "values": [1.0]}
+        end(**good)
         for wrong in (
-            lambda: Oscillator(0.0, 1.0, 0.0),
-            lambda: Oscillator(1.0, -1.0, 0.0),
-            lambda: Oscillator(1.0, 1.0, -0.1),
-            lambda: Oscillator(1.0, 1e12, 0.0).advance(*START, 1.0, points),
-            lambda: Oscillator(1.0, 1.0, 0.0).advance(*START, 0.0, points),
-            lambda: Oscillator(1.0, 1.0, 0.0).advance(*START, math.inf, points),
-            lambda: Polynomial([], []),
-            lambda: Polynomial([0.0, 0.0], [1.0, 2.0]),
-            lambda: Polynomial([0.0, 1.0], [1.0]),
-            lambda: Polynomial([0.0], [math.nan]),
-            lambda: Polynomial(list(range(MAX_NODES + 1)), [0.0] * (MAX_NODES + 1)),
+            {"m": 0.0},
+            {"m": math.inf},
+            {"c": -1.0},
+            {"d": -0.1},
+            {"c": 1e12},
+            {"step": 0.0},
+            {"step": math.inf},
+            {"step": math.nan},
+            {"nodes": [], "values": []},
+            {"nodes": [0.0, 0.0], "values": [1.0, 2.0]},
+            {"nodes": [0.0, 1.0], "values": [1.0]},
+            {"values": [math.nan]},
+            {"nodes": list(range(9)), "values": [0.0] * 9},
         ):
-            self.assertRaises(ValueError, wrong)
+            with self.subTest(wrong=wrong), self.assertRaises(Refused):
+                end(**{**good, **wrong})
 
 
 if __name__ == "__main__":

@@ -13,11 +13,15 @@ pub struct Study {
 /// One of the errors.
 pub type Of = fn(&Errors) -> f64;
 
-/// Relative errors of positions and velocities below this are rounding.
-pub const STATE_ROUNDING: f64 = 1e-13;
+/// Relative errors of positions below this are rounding.
+pub const POSITION_ROUNDING: f64 = 2e-14;
 
-/// Relative errors of multipliers below this are rounding: g'' is solved for them, with position / H^2 in it.
-pub const LAMBDA_ROUNDING: f64 = 1e-10;
+/// Relative errors of positions and velocities together below this are rounding: the noise of the multipliers shakes
+/// the velocities.
+pub const STATE_ROUNDING: f64 = 1e-12;
+
+/// Relative errors of multipliers below this are rounding: they come from positions divided by H^2.
+pub const LAMBDA_ROUNDING: f64 = 2e-10;
 
 impl Study {
     /// Runs `errors` for every macro step.
@@ -27,30 +31,30 @@ impl Study {
         }
     }
 
-    /// Least-squares slope of log(error) over log(H), without errors below `rounding`.
+    /// Least-squares slope of log(error) over log(H) for the three smallest macro steps with an error above `rounding`.
     ///
     /// # Panics
-    /// Fewer than three errors are left.
+    /// Fewer than three errors are above it.
     pub fn order(&self, of: Of, rounding: f64) -> f64 {
-        let points: Vec<(f64, f64)> = self
+        let mut points: Vec<(f64, f64)> = self
             .runs
             .iter()
-            .map(|(h, errors)| (h.ln(), of(errors)))
-            .filter(|(_, error)| *error > rounding)
-            .map(|(h, error)| (h, error.ln()))
+            .filter(|(_, errors)| of(errors) > rounding)
+            .map(|(h, errors)| (h.ln(), of(errors).ln()))
             .collect();
+        points.sort_by(|one, other| one.0.total_cmp(&other.0));
         assert!(
             points.len() >= 3,
             "{} errors are too few for an order\n{self}",
             points.len()
         );
-        slope(&points)
+        slope(&points[..3])
     }
 
     /// Orders of position, state and multiplier.
     pub fn orders(&self) -> [f64; 3] {
         [
-            self.order(|errors| errors.x, STATE_ROUNDING),
+            self.order(|errors| errors.x, POSITION_ROUNDING),
             self.order(|errors| errors.state, STATE_ROUNDING),
             self.order(|errors| errors.lambda, LAMBDA_ROUNDING),
         ]
@@ -66,6 +70,27 @@ fn slope(points: &[(f64, f64)]) -> f64 {
         .map(|(x, y)| ((x - x_mean) * (y - y_mean), (x - x_mean).powi(2)));
     let (mixed, square) = moments.fold((0.0, 0.0), |sum, term| (sum.0 + term.0, sum.1 + term.1));
     mixed / square
+}
+
+/// Asserts the orders of position, state and multiplier for each of `cases`; prints all errors if one is wrong.
+pub fn assert_orders(cases: &[(&str, [f64; 3])], tolerance: f64, study: impl Fn(&str) -> Study) {
+    let mut report = String::new();
+    let mut wrong = 0;
+    for (case, expected) in cases {
+        let study = study(case);
+        let orders = study.orders();
+        let differ = |(order, expected): (&f64, &f64)| (order - expected).abs() > tolerance;
+        let is_wrong = orders.iter().zip(expected).any(differ);
+        let mark = if is_wrong { " <-- not as expected" } else { "" };
+        report += &format!("{case}: {orders:.2?}, expected {expected:?}{mark}\n{study}");
+        wrong += usize::from(is_wrong);
+    }
+    println!("{report}");
+    assert!(
+        wrong == 0,
+        "{wrong} of {} cases have other orders",
+        cases.len()
+    );
 }
 
 impl fmt::Display for Study {

@@ -7,6 +7,7 @@
 pub mod convergence;
 pub mod errors;
 pub mod masses;
+pub mod process;
 pub mod runs;
 pub mod scenes;
 pub mod spring_pair;

@@ -9,6 +9,9 @@ use linchpin_master::cosimulation::Options;
 use linchpin_master::results::Row;
 use linchpin_master::scene::Scene;
 
+/// Time in s after which the multipliers no longer show the first steps.
+const SETTLED: f64 = 0.05;
+
 /// All rows of a run.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Trajectory {
@@ -26,6 +29,12 @@ impl Trajectory {
         let place = self.columns.iter().position(|column| column == name);
         let place = place.unwrap_or_else(|| panic!("no column {name} among {:?}", self.columns));
         self.rows.iter().map(|row| row[place]).collect()
+    }
+
+    /// The rows after the 0.05 s, in which the multipliers settle.
+    pub fn settled(mut self) -> Self {
+        self.rows.retain(|row| row[0] > SETTLED);
+        self
     }
 
     /// Every column with the bits of its values, by name.

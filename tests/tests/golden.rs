@@ -30,7 +30,7 @@ fn exact_solver() {
 
 #[test]
 fn radau5_at_1e_8() {
-    compare_all(&RADAU5, 1e-7, 1e-6);
+    compare_all(&[RADAU5], 1e-7, 1e-6);
 }
 
 fn compare_all(solver: &[&str], state: f64, lambda: f64) {

@@ -1,7 +1,9 @@
 //! The contract around models: one worker with its instances.
 
+use std::any::Any;
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::{Arc, Mutex, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError};
 use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::{CallError, Contract};
@@ -36,14 +38,20 @@ impl Default for Limits {
 /// A worker: its models and the instances that masters made of them.
 pub struct Host {
     models: BTreeMap<String, Box<dyn Model>>,
-    instances: RwLock<BTreeMap<u64, Arc<Seat>>>,
+    seats: RwLock<Seats>,
     limits: Limits,
 }
 
+type Seats = BTreeMap<u64, Arc<Seat>>;
+
 struct Seat {
-    instance: Mutex<Instance>,
     request: v1::InitializeRequest,
-    used: Mutex<Instant>,
+    occupant: Mutex<Occupant>,
+}
+
+struct Occupant {
+    instance: Instance,
+    used: Instant,
 }
 
 impl Host {
@@ -60,17 +68,23 @@ impl Host {
             .collect();
         Self {
             models,
-            instances: RwLock::default(),
+            seats: RwLock::default(),
             limits,
         }
     }
 
     /// Number of instances at present.
     pub fn instances(&self) -> usize {
-        self.instances
-            .read()
-            .unwrap_or_else(PoisonError::into_inner)
-            .len()
+        self.seats().len()
+    }
+
+    // A call that panics under one of these locks leaves the table of instances whole.
+    fn seats(&self) -> RwLockReadGuard<'_, Seats> {
+        self.seats.read().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change_seats(&self) -> RwLockWriteGuard<'_, Seats> {
+        self.seats.write().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn with_instance<T>(
@@ -78,13 +92,7 @@ impl Host {
         number: u64,
         call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
     ) -> Result<T, CallError> {
-        let seat = {
-            let instances = self
-                .instances
-                .read()
-                .unwrap_or_else(PoisonError::into_inner);
-            instances.get(&number).cloned()
-        };
+        let seat = self.seats().get(&number).cloned();
         let Some(seat) = seat else {
             return Err(Failure::misuse(
                 "instance",
@@ -92,8 +100,7 @@ impl Host {
             )
             .into());
         };
-        *lock(&seat.used) = Instant::now();
-        Ok(call(&mut lock(&seat.instance))?)
+        Ok(survive(|| seat.call(call))?)
     }
 
     fn build(&self, request: &v1::InitializeRequest) -> Result<Instance, Failure> {
@@ -122,17 +129,81 @@ impl Host {
         Instance::new(subsystem, &description, request, self.limits.snapshots)
     }
 
-    fn make_room(&self, instances: &mut BTreeMap<u64, Arc<Seat>>) -> Result<(), Failure> {
-        if instances.len() >= self.limits.instances {
-            instances.retain(|_, seat| lock(&seat.used).elapsed() < self.limits.idle);
+    fn place(
+        &self,
+        request: &v1::InitializeRequest,
+        instance: Instance,
+    ) -> Result<v1::InitializeReply, Failure> {
+        let mut seats = self.change_seats();
+        if let Some(seat) = seats.get(&request.instance).cloned() {
+            // The same request was repeated while the first one was still being answered.
+            drop(seats);
+            return seat.initialize_again(request);
         }
-        if instances.len() < self.limits.instances {
-            return Ok(());
+        if seats.len() >= self.limits.instances {
+            seats.retain(|_, seat| !seat.is_idle(self.limits.idle));
         }
-        Err(Failure::fatal(format!(
-            "this worker is full: {} instances are in use; end some with Terminate or start another worker",
-            instances.len()
-        )))
+        if seats.len() >= self.limits.instances {
+            return Err(Failure::fatal(format!(
+                "this worker is full: {} instances are in use; end some with Terminate or start another worker",
+                seats.len()
+            )));
+        }
+        let reply = instance.initialized();
+        let occupant = Occupant {
+            instance,
+            used: Instant::now(),
+        };
+        let seat = Seat {
+            request: request.clone(),
+            occupant: Mutex::new(occupant),
+        };
+        seats.insert(request.instance, Arc::new(seat));
+        Ok(reply)
+    }
+}
+
+impl Seat {
+    fn call<T>(
+        &self,
+        call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        let mut occupant = self.occupant.lock().map_err(|_| {
+            Failure::fatal(
+                "the solver of this instance panicked in an earlier call; Terminate it and make another",
+            )
+        })?;
+        let answer = call(&mut occupant.instance);
+        occupant.used = Instant::now();
+        answer
+    }
+
+    /// An instance that is computing is not idle, however long that takes.
+    fn is_idle(&self, limit: Duration) -> bool {
+        match self.occupant.try_lock() {
+            Ok(occupant) => occupant.used.elapsed() >= limit,
+            Err(TryLockError::WouldBlock) => false,
+            Err(TryLockError::Poisoned(_)) => true,
+        }
+    }
+
+    /// The answer to an Initialize that is repeated.
+    fn initialize_again(
+        &self,
+        request: &v1::InitializeRequest,
+    ) -> Result<v1::InitializeReply, Failure> {
+        self.call(|instance| {
+            if instance.is_new() && self.request == *request {
+                return Ok(instance.initialized());
+            }
+            Err(Failure::misuse(
+                "instance",
+                format!(
+                    "instance {:#x} exists already; choose another number",
+                    request.instance
+                ),
+            ))
+        })
     }
 }
 
@@ -154,33 +225,12 @@ impl Contract for Host {
         &self,
         request: &v1::InitializeRequest,
     ) -> Result<v1::InitializeReply, CallError> {
-        let mut instances = self
-            .instances
-            .write()
-            .unwrap_or_else(PoisonError::into_inner);
-        if let Some(seat) = instances.get(&request.instance) {
-            if seat.request == *request {
-                return Ok(lock(&seat.instance).initialized());
-            }
-            return Err(Failure::misuse(
-                "instance",
-                format!(
-                    "instance {:#x} exists already; choose another number",
-                    request.instance
-                ),
-            )
-            .into());
+        let existing = self.seats().get(&request.instance).cloned();
+        if let Some(seat) = existing {
+            return Ok(seat.initialize_again(request)?);
         }
-        self.make_room(&mut instances)?;
-        let instance = self.build(request)?;
-        let reply = instance.initialized();
-        let seat = Seat {
-            instance: Mutex::new(instance),
-            request: request.clone(),
-            used: Mutex::new(Instant::now()),
-        };
-        instances.insert(request.instance, Arc::new(seat));
-        Ok(reply)
+        let instance = survive(|| self.build(request))?;
+        Ok(self.place(request, instance)?)
     }
 
     fn snapshot(&self, request: &v1::SnapshotRequest) -> Result<v1::SnapshotReply, CallError> {
@@ -209,11 +259,7 @@ impl Contract for Host {
     }
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
-        let mut instances = self
-            .instances
-            .write()
-            .unwrap_or_else(PoisonError::into_inner);
-        instances.remove(&request.instance);
+        self.change_seats().remove(&request.instance);
         Ok(v1::TerminateReply {})
     }
 
@@ -234,7 +280,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         exchange: true,
         repeats_step_sequence: own.repeats_step_sequence,
         max_input_degree: MAX_NODES as u32 - 1,
-        exportable_snapshot: true,
+        exportable_snapshot: false,
     });
     model
 }
@@ -243,7 +289,20 @@ fn refuse(error: SetupError) -> Failure {
     Failure::misuse(error.field(), error.to_string())
 }
 
-/// A panic in one call does not make the others fail: the data behind these locks stay usable.
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+/// A solver that panics fails its own call only.
+fn survive<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+    catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
+        Err(Failure::fatal(format!(
+            "the solver panicked: {}",
+            words(&*panic)
+        )))
+    })
+}
+
+fn words(panic: &(dyn Any + Send)) -> &str {
+    match (panic.downcast_ref::<&str>(), panic.downcast_ref::<String>()) {
+        (Some(words), _) => words,
+        (None, Some(words)) => words,
+        (None, None) => "it did not say why",
+    }
 }

@@ -9,6 +9,8 @@
 //! * [`server`]: the gRPC service, health, reflection, shutdown;
 //! * [`scripted`]: a peer that answers from a script, for tests of masters.
 
+#![cfg_attr(test, allow(clippy::unwrap_used))]
+
 pub mod host;
 pub mod inputs;
 pub mod instance;

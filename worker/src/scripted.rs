@@ -12,7 +12,8 @@ use linchpin_proto::v1::{self, Failure};
 pub enum Act {
     /// Answers with a failure.
     Fail(Failure),
-    /// Puts this number in the place of an advanced or, without an advance, predicted output.
+    /// Puts this number in the place of an advanced or, without an advance, predicted output; panics if the exchange
+    /// has no such output.
     Put {
         /// Place among the coupling outputs.
         output: usize,

@@ -4,6 +4,8 @@ mod address;
 mod service;
 
 use std::future::Future;
+use std::os::unix::fs::FileTypeExt;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -22,6 +24,9 @@ pub const MESSAGE_LIMIT: usize = 16 << 20;
 /// Time that calls under way have to finish after a shutdown.
 pub const GRACE: Duration = Duration::from_secs(2);
 
+/// Longest path of a Unix socket in bytes.
+const LONGEST_PATH: usize = 107;
+
 /// Who may reach a worker that has no encryption.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
@@ -35,10 +40,28 @@ pub enum Reach {
 #[derive(Debug, thiserror::Error)]
 pub enum ListenError {
     /// Somebody listens there already.
-    #[error("{address} is in use; choose another address, or port 0 to let the system choose")]
+    #[error("{address} is in use; choose {}", another(.address))]
     InUse {
         /// The address.
         address: Address,
+    },
+    /// A file that is no socket has the path.
+    #[error("{} is no socket, and it is not overwritten; choose another path", path.display())]
+    NotASocket {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The folder for the socket does not exist.
+    #[error("there is no folder {}; make the folder, or choose another path", folder.display())]
+    NoFolder {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The path is longer than the system allows.
+    #[error("{} has more than {LONGEST_PATH} bytes, the most for a socket; choose a shorter path", path.display())]
+    PathTooLong {
+        /// The path.
+        path: PathBuf,
     },
     /// An address that other machines can reach was not permitted.
     #[error(
@@ -57,6 +80,13 @@ pub enum ListenError {
         /// Its reason.
         source: std::io::Error,
     },
+}
+
+fn another(address: &Address) -> &'static str {
+    match address {
+        Address::Tcp(_) => "another port, or port 0 to let the system choose",
+        Address::Unix(_) => "another path",
+    }
 }
 
 /// Serving ended early.
@@ -105,6 +135,7 @@ impl Server {
                 (Listener::Tcp(listener), bound)
             }
             Address::Unix(path) => {
+                check_path(path)?;
                 address::clear_stale(path).map_err(fail)?;
                 let listener = UnixListener::bind(path).map_err(fail)?;
                 (Listener::Unix(listener), address.clone())
@@ -152,6 +183,26 @@ impl Server {
             address: self.address,
             source,
         })
+    }
+}
+
+/// Refuses paths for which the system has only cryptic words.
+fn check_path(path: &Path) -> Result<(), ListenError> {
+    if path.as_os_str().len() > LONGEST_PATH {
+        let path = path.to_owned();
+        return Err(ListenError::PathTooLong { path });
+    }
+    let folder = path.parent().filter(|folder| !folder.is_dir());
+    if let Some(folder) = folder {
+        let folder = folder.to_owned();
+        return Err(ListenError::NoFolder { folder });
+    }
+    match path.symlink_metadata() {
+        Ok(found) if !found.file_type().is_socket() => {
+            let path = path.to_owned();
+            Err(ListenError::NotASocket { path })
+        }
+        _ => Ok(()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! How the command line tool reaches the workers of a scene.
 
+use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
@@ -64,9 +65,7 @@ impl Connector {
                 Ok(self.in_this_process(subsystem))
             }
             Served::BuiltIn => {
-                let program = std::env::current_exe()?;
-                let program = program.to_string_lossy().into_owned();
-                let command = [program, "worker".into(), "--exit-with-stdin".into()];
+                let command = [this_program()?, "worker".into(), "--exit-with-stdin".into()];
                 start(
                     self.launcher()?,
                     &subsystem.name,
@@ -126,4 +125,16 @@ impl Connector {
         let launcher = Launcher::new()?;
         Ok(self.launcher.get_or_init(|| launcher))
     }
+}
+
+/// The path of this program. If an update has replaced its file, the running one is found under `/proc` on Linux; the
+/// workers then are of the same version as their master.
+fn this_program() -> std::io::Result<String> {
+    let path = std::env::current_exe()?;
+    let running = Path::new("/proc/self/exe");
+    let found = match path.exists() || !running.exists() {
+        true => &path,
+        false => running,
+    };
+    Ok(found.to_string_lossy().into_owned())
 }

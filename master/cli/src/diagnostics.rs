@@ -1,6 +1,7 @@
 //! How errors are shown: mistakes in a scene with the lines where they stand.
 
 use std::fmt;
+use std::io::Write;
 
 use linchpin_master::scene::SceneError;
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
@@ -9,19 +10,20 @@ use crate::commands::CommandError;
 
 /// Writes an error to the error output: with source lines for a person at a terminal, one line each otherwise.
 pub fn show(error: &CommandError, for_a_person: bool) {
-    match error.scene_errors() {
-        Some(errors) if for_a_person => {
-            for error in errors {
-                eprintln!("{:?}", miette::Report::new(Shown::from(error)));
-            }
-        }
-        Some(errors) => {
-            for error in errors {
-                eprintln!("error: {error}");
-            }
-        }
-        None => eprintln!("error: {error}"),
-    }
+    let text = match error.scene_errors() {
+        Some(errors) if for_a_person => errors.iter().map(with_source_lines).collect(),
+        Some(errors) => errors
+            .iter()
+            .map(|error| format!("error: {error}\n"))
+            .collect(),
+        None => format!("error: {error}\n"),
+    };
+    // Whoever closed the error output is not told.
+    let _ = write!(std::io::stderr(), "{text}");
+}
+
+fn with_source_lines(error: &SceneError) -> String {
+    format!("{:?}\n", miette::Report::new(Shown::from(error)))
 }
 
 #[derive(Debug)]

@@ -5,8 +5,10 @@
 //! * [`closed_form`]: the exact solution of scenes that have one;
 //! * [`error_norm`]: errors of a run;
 //! * [`study`]: many runs of one scene with other settings;
-//! * [`interrupt`]: Ctrl-C;
-//! * [`plot`]: pictures.
+//! * [`interrupt`]: Ctrl-C as a request to stop a run;
+//! * [`plot`]: the pictures of runs and studies.
+
+#![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod closed_form;
 pub mod commands;

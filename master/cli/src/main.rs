@@ -20,7 +20,7 @@ use tracing_subscriber::prelude::*;
   linchpin check scenes/oscillator.toml
   linchpin worker --listen 127.0.0.1:50051
 
-Exit codes: 0 done, 1 the run failed, 2 the scene or the command line is wrong."
+Exit codes: 0 done, 1 the run failed, 2 the scene or the command line is wrong, 130 interrupted."
 )]
 struct Arguments {
     #[command(subcommand)]

@@ -199,17 +199,16 @@ fn the_closed_rules_are_found() {
         ("3", 7.0 / 90.0 + 2.3 / 3.0, 0.737 + 0.889 * 2.3),
     ] {
         let degree = ("coupling.degree", degree);
-        let found = limit(
-            "coupling.gamma",
-            "H^2",
-            &[("coupling.beta", "2.3H"), degree],
-        );
+        let index = ("coupling.index", "1");
+        let baumgarte = [index, ("coupling.beta", "2.3H"), degree];
+        let found = limit("coupling.gamma", "H^2", &baumgarte);
         assert!(
             (found / gamma_over_h2 - 1.0).abs() < 0.01,
             "{degree:?}: gamma = {found} H^2"
         );
         let weighted = [
             ("coupling.method", "weighted"),
+            index,
             ("coupling.a", "2.3"),
             degree,
         ];
@@ -218,14 +217,23 @@ fn the_closed_rules_are_found() {
     }
 }
 
+/// The explicit method is a double integrator under the feedback `-(x + 2 mu v) / mu^2` that is held over each step; its
+/// map has the eigenvalue -1 at `mu = H`.
+#[test]
+fn the_explicit_method_needs_a_time_constant_of_one_step() {
+    let settings = [("coupling.method", "explicit"), ("coupling.degree", "0")];
+    let found = limit("coupling.mu", "H", &settings);
+    assert!((found - 1.0).abs() < 0.01, "mu = {found} H");
+}
+
 /// Bisects for the value of `key`, in units of `unit`, above which the map is stable.
 fn limit(key: &str, unit: &str, others: &[(&str, &str)]) -> f64 {
-    let common = [("coupling.index", "1"), ("coupling.macro_step", "1e-5")];
+    let step = [("coupling.macro_step", "1e-5")];
     let (mut unstable, mut stable) = (1e-3, 10.0);
     while stable / unstable > 1.001 {
         let middle = f64::sqrt(unstable * stable);
         let value = format!("{middle}{unit}");
-        if radius(&[others, &common, &[(key, &value)]].concat()) > 1.0 {
+        if radius(&[others, &step, &[(key, &value)]].concat()) > 1.0 {
             unstable = middle;
         } else {
             stable = middle;

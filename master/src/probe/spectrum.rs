@@ -36,8 +36,9 @@ fn balanced(matrix: &Mat<f64>) -> Mat<f64> {
                 continue;
             }
             let factor = (row / column).log2().div_euclid(2.0).exp2();
-            // Written so that sums beyond the range of numbers end the loop.
-            if !(column * factor + row / factor < BALANCED * (column + row)) {
+            let sum = column * factor + row / factor;
+            // Sums beyond the range of numbers end the loop.
+            if sum.is_nan() || sum >= BALANCED * (column + row) {
                 continue;
             }
             is_done = false;

@@ -39,6 +39,7 @@ pub use resolved::{
     Output, Reference, RunSettings, Served, Side, StabilitySettings, Subsystem,
 };
 pub use stability_rules::{Warning, warnings};
+pub use subsystem::is_worker_address;
 
 use written::Written;
 
@@ -107,6 +108,11 @@ pub fn parse(text: &str, origin: &str, overrides: &[Override]) -> Result<Scene, 
 }
 
 impl Scene {
+    /// The text of the scene file.
+    pub fn text(&self) -> &str {
+        self.written.text()
+    }
+
     /// Where a key is set, such as `subsystem.mass1.parameters.m`, or the nearest key around it; absent if the scene
     /// says nothing about it.
     pub fn place(&self, key: &str) -> Option<Place> {

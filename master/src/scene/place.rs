@@ -37,6 +37,10 @@ impl Source {
         }
     }
 
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
     pub(super) fn over_ride(text: String) -> Self {
         Self {
             origin: Origin::Override,

@@ -87,7 +87,7 @@ fn read_served(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Ser
 
 fn read_address(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String> {
     let address = field.text(problems)?;
-    if is_network_address(address) || is_socket_path(address) {
+    if is_worker_address(address) {
         return Some(address.to_owned());
     }
     let (key, address) = (field.key.clone(), address.to_owned());
@@ -98,6 +98,11 @@ fn read_address(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String
     };
     field.report(kind, problems);
     None
+}
+
+/// Whether a text is the address of a worker: `http://HOST:PORT` or `unix:/PATH`.
+pub fn is_worker_address(text: &str) -> bool {
+    is_network_address(text) || is_socket_path(text)
 }
 
 fn is_network_address(address: &str) -> bool {

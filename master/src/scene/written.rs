@@ -172,6 +172,11 @@ impl Written {
         Err(reported)
     }
 
+    /// The text of the file.
+    pub(super) fn text(&self) -> &str {
+        self.sources.first().map_or("", |file| file.text())
+    }
+
     /// The place of a spot.
     pub(super) fn place(&self, spot: &Spot) -> Option<Place> {
         let source = self.sources.get(spot.source)?;

@@ -1,7 +1,6 @@
 //! The same messages on open tonic streams, answered by a constant.
 
 use std::pin::Pin;
-use std::process::{Child, Command};
 use std::sync::Arc;
 
 use linchpin_proto::v1::worker_client::WorkerClient;
@@ -17,6 +16,7 @@ use tonic::transport::{Endpoint, server::TcpIncoming};
 use tonic::{Request, Response, Status, Streaming};
 
 use crate::macro_steps::{Messages, free_port};
+use crate::process::Process;
 use crate::report::Series;
 
 struct Constant(ExchangeReply);
@@ -121,16 +121,9 @@ pub fn serve(address: &str, reply: &str) {
 }
 
 struct Peer {
-    process: Child,
+    _process: Process,
     requests: UnboundedSender<ExchangeRequest>,
     replies: Streaming<ExchangeReply>,
-}
-
-impl Drop for Peer {
-    fn drop(&mut self) {
-        self.process.kill().unwrap();
-        self.process.wait().unwrap();
-    }
 }
 
 impl Peer {
@@ -140,11 +133,7 @@ impl Peer {
             .iter()
             .map(|byte| format!("{byte:02x}"))
             .collect();
-        let program = std::env::current_exe().unwrap();
-        let process = Command::new(program)
-            .args(["bare-stream", listen, &digits])
-            .spawn()
-            .unwrap();
+        let process = Process::start(&["bare-stream", listen, &digits]);
         let endpoint = Endpoint::from_shared(address.to_owned())
             .unwrap()
             .tcp_nodelay(true);
@@ -164,7 +153,7 @@ impl Peer {
                 .into_inner()
         });
         Self {
-            process,
+            _process: process,
             requests,
             replies,
         }

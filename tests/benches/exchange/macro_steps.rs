@@ -1,7 +1,5 @@
 //! Macro steps of the two-mass oscillator.
 
-use std::process::{Child, Command, Stdio};
-
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
 use linchpin_master::cosimulation::Options;
@@ -9,6 +7,7 @@ use linchpin_master::scene::{Scene, parse};
 use linchpin_proto::v1;
 use prost::Message;
 
+use crate::process::Process;
 use crate::report::Series;
 
 const SCENE: &str = include_str!("../../../scenes/oscillator.toml");
@@ -45,11 +44,11 @@ struct Running {
     simulation: CoSimulation,
     // Kept: they end the workers.
     _connector: Connector,
-    _workers: Vec<Worker>,
+    _workers: Vec<Process>,
 }
 
 impl Running {
-    fn start(scene: &Scene, place: Place, workers: Vec<Worker>) -> Self {
+    fn start(scene: &Scene, place: Place, workers: Vec<Process>) -> Self {
         let connector = Connector::new(place);
         let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
         let simulation = CoSimulation::start(scene, &mut connect, &Options::default()).unwrap();
@@ -69,31 +68,6 @@ impl Running {
     }
 }
 
-/// A worker process of this very program.
-struct Worker(Child);
-
-impl Worker {
-    fn start(address: &str) -> Self {
-        let program = std::env::current_exe().unwrap();
-        let mut command = Command::new(program);
-        command.args(["worker", "--exit-with-stdin", "--listen", address]);
-        Self(
-            command
-                .stdin(Stdio::piped())
-                .stdout(Stdio::null())
-                .spawn()
-                .unwrap(),
-        )
-    }
-}
-
-impl Drop for Worker {
-    fn drop(&mut self) {
-        self.0.kill().unwrap();
-        self.0.wait().unwrap();
-    }
-}
-
 /// A free port of this machine, free again when this returns.
 pub fn free_port() -> u16 {
     std::net::TcpListener::bind("127.0.0.1:0")
@@ -108,9 +82,10 @@ pub fn all() -> Vec<Series> {
     let plain = scene(&[LONG]);
     let unary = scene(&[LONG, "subsystem.*.calls=unary"]);
     let ports = [free_port(), free_port()];
-    let tcp_workers = ports
-        .map(|port| Worker::start(&format!("127.0.0.1:{port}")))
-        .into();
+    let tcp_workers = ports.map(|port| {
+        let address = format!("127.0.0.1:{port}");
+        Process::start(&["worker", "--exit-with-stdin", "--listen", &address])
+    });
     let addresses = [1, 2].map(|number| {
         format!(
             "subsystem.mass{number}.address=http://127.0.0.1:{}",
@@ -122,7 +97,7 @@ pub fn all() -> Vec<Series> {
         Running::start(&plain, Place::InProcess, Vec::new()).series("macro step, in process"),
         Running::start(&plain, Place::Processes, Vec::new())
             .series("macro step, 2 processes, stream, Unix sockets"),
-        Running::start(&tcp, Place::Processes, tcp_workers)
+        Running::start(&tcp, Place::Processes, tcp_workers.into())
             .series("macro step, 2 processes, stream, TCP"),
         Running::start(&unary, Place::Processes, Vec::new())
             .series("macro step, 2 processes, unary calls, Unix sockets"),

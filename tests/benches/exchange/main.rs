@@ -14,6 +14,7 @@
 
 mod bare_stream;
 mod macro_steps;
+mod process;
 mod raw_socket;
 mod report;
 

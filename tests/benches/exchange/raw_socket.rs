@@ -3,10 +3,10 @@
 use std::io::{Read, Write};
 use std::net::{TcpListener, TcpStream};
 use std::os::unix::net::{UnixListener, UnixStream};
-use std::process::{Child, Command};
 use std::time::Duration;
 
 use crate::macro_steps::{Messages, free_port};
+use crate::process::Process;
 use crate::report::Series;
 
 trait Socket: Read + Write {}
@@ -29,29 +29,21 @@ pub fn serve(address: &str, request: usize, reply: usize) {
 }
 
 struct Peer {
-    process: Child,
+    _process: Process,
     socket: Box<dyn Socket>,
-}
-
-impl Drop for Peer {
-    fn drop(&mut self) {
-        self.process.kill().unwrap();
-        self.process.wait().unwrap();
-    }
 }
 
 impl Peer {
     fn start(address: &str, messages: &Messages) -> Self {
         let sizes = [messages.request_bytes().len(), messages.reply_bytes().len()];
-        let program = std::env::current_exe().unwrap();
-        let process = Command::new(program)
-            .args(["raw-socket", address])
-            .args(sizes.map(|size| size.to_string()))
-            .spawn()
-            .unwrap();
+        let [request, reply] = sizes.map(|size| size.to_string());
+        let process = Process::start(&["raw-socket", address, &request, &reply]);
         loop {
             if let Ok(socket) = connect(address) {
-                return Self { process, socket };
+                return Self {
+                    _process: process,
+                    socket,
+                };
             }
             std::thread::sleep(Duration::from_millis(5));
         }

@@ -2,13 +2,10 @@
 
 use linchpin_proto::v1::{self, Failure};
 
-use super::{Answer, Instance, Meter, Sequence, go_back, interval};
-use crate::Interval;
+use super::{Answer, Base, Horizon, Instance, Meter, Sequence, interval};
 
 impl Instance {
     /// Goes on with the corrected inputs and commits, then looks ahead from there.
-    ///
-    /// After a failure the committed state is the one before the request.
     pub(crate) fn exchange(
         &mut self,
         request: &v1::ExchangeRequest,
@@ -16,18 +13,19 @@ impl Instance {
     ) -> Result<(), Failure> {
         if self.is_repeated(request.sequence)? {
             return match &self.answer {
-                Answer::Exchange => {
+                Answer::Exchange(answer) => {
                     copy(&self.exchanged, reply);
-                    Ok(())
+                    answer.clone()
                 }
-                other => Err(other.to_another_call("Exchange")),
+                other => Err(other.belongs_not_to("Exchange")),
             };
         }
-        let done = self.advance_and_predict(request, reply);
-        if done.is_ok() {
+        let answer = self.advance_and_predict(request, reply);
+        if answer.is_ok() {
             copy(reply, &mut self.exchanged);
         }
-        self.settle(done, |()| Answer::Exchange)
+        self.settle(Answer::Exchange(answer.clone()));
+        answer
     }
 
     fn advance_and_predict(
@@ -35,20 +33,19 @@ impl Instance {
         request: &v1::ExchangeRequest,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), Failure> {
-        let meter = Meter::start(self);
+        let meter = Meter::start(&self.motion);
         reply.sequence = request.sequence;
         reply.failure = None;
-        match &request.advance {
+        let base = match &request.advance {
             Some(advance) => {
                 let outputs = reply.advanced.get_or_insert_default();
                 self.advance(advance, &mut outputs.values)?;
+                Base::Advanced
             }
-            None => reply.advanced = None,
-        }
-        let base = if request.advance.is_some() {
-            Base::Advanced
-        } else {
-            Base::Committed
+            None => {
+                reply.advanced = None;
+                Base::Committed
+            }
         };
         match &request.predict {
             Some(predict) => self.predict(base, predict, reply)?,
@@ -58,22 +55,16 @@ impl Instance {
             }
         }
         if base == Base::Advanced {
-            std::mem::swap(&mut self.committed, &mut self.advanced);
+            self.motion.commit();
         }
-        reply.work = Some(meter.stop(self));
+        reply.work = Some(meter.stop(&self.motion));
         Ok(())
     }
 
     fn advance(&mut self, advance: &v1::Advance, values: &mut Vec<f64>) -> Result<(), Failure> {
         let interval = interval(advance.t, advance.step)?;
-        self.go_to(Base::Committed)?;
-        self.signals.set(&advance.signals)?;
-        self.integrate(interval, Sequence::Own)?;
-        self.read(interval, v1::OutputSet::All, values)?;
-        self.advanced.snapshot.clear();
-        self.subsystem.snapshot(&mut self.advanced.snapshot);
-        self.advanced.state = self.state;
-        Ok(())
+        self.motion
+            .advance(interval, &advance.signals, v1::OutputSet::All, values)
     }
 
     fn predict(
@@ -84,67 +75,12 @@ impl Instance {
     ) -> Result<(), Failure> {
         let horizon = Horizon::of(predict)?;
         let predicted = reply.predicted.get_or_insert_default();
-        self.signals.set(&predict.signals)?;
-        self.look_ahead(base, horizon, Sequence::Own, &mut predicted.values)?;
-        reply
-            .perturbed
-            .resize_with(predict.perturbed.len(), v1::Outputs::default);
-        for (signal, outputs) in predict.perturbed.iter().zip(&mut reply.perturbed) {
-            let replaced = self.signals.replace(signal)?;
-            let done = self.look_ahead(base, horizon, Sequence::Repeated, &mut outputs.values);
-            self.signals.put_back(replaced);
-            done?;
-        }
-        Ok(())
+        self.motion.set_signals(&predict.signals)?;
+        self.motion
+            .look_ahead(base, horizon, Sequence::Own, &mut predicted.values)?;
+        self.motion
+            .look_ahead_perturbed(base, horizon, &predict.perturbed, &mut reply.perturbed)
     }
-
-    fn look_ahead(
-        &mut self,
-        base: Base,
-        horizon: Horizon,
-        sequence: Sequence,
-        values: &mut Vec<f64>,
-    ) -> Result<(), Failure> {
-        self.go_to(base)?;
-        match horizon {
-            Horizon::Step(interval) => {
-                self.integrate(interval, sequence)?;
-                self.read(interval, v1::OutputSet::Coupling, values)
-            }
-            Horizon::Now(t) => {
-                let now = Interval {
-                    start: t,
-                    length: 0.0,
-                };
-                self.read(now, v1::OutputSet::Coupling, values)
-            }
-        }
-    }
-
-    fn go_to(&mut self, base: Base) -> Result<(), Failure> {
-        let kept = match base {
-            Base::Committed => &self.committed,
-            Base::Advanced => &self.advanced,
-        };
-        if self.state == kept.state {
-            return Ok(());
-        }
-        go_back(&mut *self.subsystem, &mut self.state, kept)
-    }
-}
-
-/// Which state a prediction starts from.
-#[derive(Clone, Copy, PartialEq)]
-enum Base {
-    Committed,
-    Advanced,
-}
-
-/// How far a prediction looks.
-#[derive(Clone, Copy)]
-enum Horizon {
-    Step(Interval),
-    Now(f64),
 }
 
 impl Horizon {

@@ -7,10 +7,17 @@ use crate::Inputs;
 
 /// The driven inputs of an instance, and the defaults of the others.
 pub(super) struct Signals {
-    driven: Vec<usize>,
-    defaults: Vec<f64>,
+    driven: Vec<Driven>,
+    is_given: Vec<bool>,
     inputs: Inputs,
     values: Vec<f64>,
+}
+
+/// An input that the master drives.
+struct Driven {
+    input: usize,
+    name: String,
+    default: Option<f64>,
 }
 
 /// An input that was replaced for one perturbed step.
@@ -21,28 +28,39 @@ pub(super) struct Replaced {
 
 impl Signals {
     pub(super) fn new(known: &[v1::Variable], driven: &[String]) -> Result<Self, Failure> {
-        let driven = find(known, driven, "inputs")?;
-        for (place, variable) in known.iter().enumerate() {
-            if variable.default.is_none() && !driven.contains(&place) {
-                return Err(Failure::misuse(
-                    "inputs",
-                    format!(
-                        "input \"{}\" has no default and must be driven",
-                        variable.name
-                    ),
-                ));
-            }
+        let places = find(known, driven, "inputs")?;
+        let undriven = |place: &usize| known[*place].default.is_none() && !places.contains(place);
+        if let Some(place) = (0..known.len()).find(undriven) {
+            return Err(Failure::misuse(
+                "inputs",
+                format!(
+                    "input \"{}\" has no default and must be driven",
+                    known[place].name
+                ),
+            ));
         }
-        let defaults: Vec<f64> = known
+        if let Some(twice) = (1..places.len()).find(|&i| places[..i].contains(&places[i])) {
+            return Err(Failure::misuse(
+                "inputs",
+                format!("input \"{}\" is listed twice", driven[twice]),
+            ));
+        }
+        let start: Vec<f64> = known
             .iter()
             .map(|variable| variable.default.unwrap_or_default())
             .collect();
-        let inputs = Inputs::constant(&defaults);
         Ok(Self {
-            driven,
-            values: defaults.clone(),
-            defaults,
-            inputs,
+            is_given: vec![false; places.len()],
+            driven: places
+                .into_iter()
+                .map(|input| Driven {
+                    input,
+                    name: known[input].name.clone(),
+                    default: known[input].default,
+                })
+                .collect(),
+            inputs: Inputs::constant(&start),
+            values: start,
         })
     }
 
@@ -52,19 +70,41 @@ impl Signals {
 
     /// Takes the signals of a request; inputs without one go back to their defaults.
     pub(super) fn set(&mut self, signals: &[v1::Signal]) -> Result<(), Failure> {
-        for &input in &self.driven {
-            self.inputs
-                .replace(input, Polynomial::constant(self.defaults[input]));
-        }
+        self.is_given.fill(false);
         for signal in signals {
-            let input = self.place(signal)?;
-            self.inputs.replace(input, polynomial(signal)?);
+            let place = self.place(signal)?;
+            let driven = &self.driven[place];
+            if std::mem::replace(&mut self.is_given[place], true) {
+                return Err(Failure::misuse(
+                    "signals",
+                    format!("input \"{}\" has two signals", driven.name),
+                ));
+            }
+            self.inputs.replace(driven.input, polynomial(signal)?);
+        }
+        for (driven, _) in self
+            .driven
+            .iter()
+            .zip(&self.is_given)
+            .filter(|(_, given)| !**given)
+        {
+            let default = driven.default.ok_or_else(|| {
+                Failure::misuse(
+                    "signals",
+                    format!(
+                        "input \"{}\" has neither a signal nor a default",
+                        driven.name
+                    ),
+                )
+            })?;
+            self.inputs
+                .replace(driven.input, Polynomial::constant(default));
         }
         Ok(())
     }
 
     pub(super) fn replace(&mut self, signal: &v1::Signal) -> Result<Replaced, Failure> {
-        let input = self.place(signal)?;
+        let input = self.driven[self.place(signal)?].input;
         let polynomial = self.inputs.replace(input, polynomial(signal)?);
         Ok(Replaced { input, polynomial })
     }
@@ -78,20 +118,19 @@ impl Signals {
         &self.values
     }
 
+    /// Place of the signal's input among the driven ones.
     fn place(&self, signal: &v1::Signal) -> Result<usize, Failure> {
-        self.driven
-            .get(signal.input as usize)
-            .copied()
-            .ok_or_else(|| {
-                Failure::misuse(
-                    "signals",
-                    format!(
-                        "a signal names input {}, but Initialize listed {} inputs (counted from 0)",
-                        signal.input,
-                        self.driven.len()
-                    ),
-                )
-            })
+        let place = signal.input as usize;
+        if place < self.driven.len() {
+            return Ok(place);
+        }
+        Err(Failure::misuse(
+            "signals",
+            format!(
+                "a signal names input {place}, but Initialize listed {} inputs (counted from 0)",
+                self.driven.len()
+            ),
+        ))
     }
 }
 

@@ -5,7 +5,7 @@ use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Case, Scene, Served};
 
 use super::CommandError;
-use super::common::SceneArguments;
+use super::common::{SceneArguments, case_folders, print, warn};
 use crate::connect::{Connector, Place};
 
 /// Validate a scene without starting anything
@@ -23,6 +23,7 @@ pub struct Arguments {
 /// Checks the scene and all its cases.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
+    case_folders(&scene)?;
     check(&scene)?;
     for case in &scene.cases {
         check_case(&scene, case)?;
@@ -34,37 +35,37 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         .map(|subsystem| subsystem.name.as_str())
         .collect();
     if elsewhere.is_empty() {
-        println!("{}: ok", arguments.scene.scene.display());
-    } else {
-        println!(
-            "{}: ok as far as it can be told without the workers of {}; their models, markers and parameters were \
-             not checked",
-            arguments.scene.scene.display(),
-            elsewhere.join(", ")
-        );
+        return print(format_args!("{}: ok\n", arguments.scene.scene.display()));
     }
-    Ok(())
+    print(format_args!(
+        "{}: ok as far as it can be told without the workers of {}; their models and parameters, and the joints, were \
+         not checked\n",
+        arguments.scene.scene.display(),
+        elsewhere.join(", ")
+    ))
 }
 
 fn check_case(scene: &Scene, case: &Case) -> Result<(), CommandError> {
     let scene = scene.with_case(case)?;
     for warning in linchpin_master::scene::warnings(&scene) {
-        eprintln!("warning: case \"{}\": {warning}", case.name);
+        warn(format_args!("case \"{}\": {warning}", case.name));
     }
     check(&scene).map_err(|error| error.in_case(&case.name))
 }
 
-/// Builds the built-in models in this process; if there are no others, the whole start is tried.
+/// Starts the scene with its built-in models in this process; joints only if there are no other models.
 fn check(scene: &Scene) -> Result<(), CommandError> {
-    if scene
+    let mut scene = scene.clone();
+    let all = scene.subsystems.len();
+    scene
         .subsystems
-        .iter()
-        .any(|subsystem| subsystem.served != Served::BuiltIn)
-    {
-        return Ok(());
+        .retain(|subsystem| subsystem.served == Served::BuiltIn);
+    if scene.subsystems.len() < all {
+        scene.joints.clear();
+        scene.output.variables = None;
     }
     let connector = Connector::new(Place::InProcess);
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
-    CoSimulation::start(scene, &mut connect, &Options::default()).map_err(CommandError::Run)?;
+    CoSimulation::start(&scene, &mut connect, &Options::default()).map_err(CommandError::Run)?;
     Ok(())
 }

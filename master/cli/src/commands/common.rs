@@ -1,10 +1,11 @@
 //! Arguments that several commands share.
 
+use std::fmt::Display;
 use std::fs;
-use std::io::IsTerminal;
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 
-use linchpin_master::scene::{self, Override, Scene, warnings};
+use linchpin_master::scene::{self, Override, Scene, SceneErrors, warnings};
 
 use super::CommandError;
 
@@ -24,7 +25,7 @@ impl SceneArguments {
     pub fn load(&self) -> Result<Scene, CommandError> {
         let scene = scene::load(&self.scene, &self.set)?;
         for warning in warnings(&scene) {
-            eprintln!("warning: {warning}");
+            warn(warning);
         }
         Ok(scene)
     }
@@ -72,8 +73,59 @@ pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
         .map_err(unwritable)
 }
 
+/// Removes results of an earlier run that this one would not overwrite if it failed.
+pub fn remove_stale(path: &Path) -> Result<(), CommandError> {
+    match fs::remove_file(path) {
+        Err(source) if source.kind() != ErrorKind::NotFound => Err(CommandError::Unwritable {
+            path: path.to_owned(),
+            source,
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Writes to the standard output. That its reader has enough, as in `| head -1`, is no error.
+pub fn print(text: impl Display) -> Result<(), CommandError> {
+    let mut output = std::io::stdout();
+    match write!(output, "{text}").and_then(|()| output.flush()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a warning to the error output; whoever closed it is not told.
+pub fn warn(text: impl Display) {
+    let _ = writeln!(std::io::stderr(), "warning: {text}");
+}
+
+/// The folders that take the results of the cases of a scene, each its own.
+///
+/// # Errors
+/// A name that gives no folder, or the folder of another case.
+pub fn case_folders(scene: &Scene) -> Result<Vec<String>, SceneErrors> {
+    let mut folders: Vec<String> = Vec::new();
+    for case in &scene.cases {
+        let refuse = |message| {
+            let help = "choose a name that differs in letters, digits, - or _".to_owned();
+            scene.error(&format!("case.{}.name", case.name), message, Some(help))
+        };
+        let folder = file_name(&case.name);
+        if folder.is_empty() {
+            return Err(refuse("no folder can be named after this case".to_owned()));
+        }
+        if let Some(earlier) = folders.iter().position(|taken| *taken == folder) {
+            let earlier = &scene.cases[earlier].name;
+            return Err(refuse(format!(
+                "the results would go to the folder {folder}, as those of case \"{earlier}\" do"
+            )));
+        }
+        folders.push(folder);
+    }
+    Ok(folders)
+}
+
 /// A name that can be part of a path: letters, digits, `-`, `_` and `.` stay, runs of anything else become one `-`.
-pub fn file_name(name: &str) -> String {
+fn file_name(name: &str) -> String {
     let mut safe = String::with_capacity(name.len());
     for character in name.chars() {
         if character.is_alphanumeric() || matches!(character, '-' | '_' | '.') {

@@ -3,7 +3,7 @@
 use linchpin_master::scene::Override;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments};
+use super::common::{OutputArguments, SceneArguments, print};
 use crate::study::converge::{
     converge, draw_errors, draw_work_precision, number_of_runs, summary, write_csv,
 };
@@ -78,7 +78,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     draw_errors(&cases, &folder.join("converge"))?;
     draw_work_precision(&cases, &folder.join("work-precision"))?;
     if !arguments.output.quiet {
-        println!("{}\nresults in {}", summary(&cases), folder.display());
+        print(format_args!(
+            "{}\nresults in {}\n",
+            summary(&cases),
+            folder.display()
+        ))?;
     }
     Ok(())
 }

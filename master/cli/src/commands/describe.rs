@@ -4,11 +4,13 @@ use std::time::Duration;
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
-use linchpin_proto::contract::Contract;
+use linchpin_master::scene::is_worker_address;
+use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{self, DescribeReply, Model, Variable};
 use linchpin_proto::version::{PROTOCOL, negotiate};
 
 use super::CommandError;
+use super::common::print;
 
 /// Show the models, variables and markers of a running worker
 #[derive(Debug, clap::Args)]
@@ -17,11 +19,19 @@ use super::CommandError;
   linchpin describe unix:/run/linchpin/mass1.sock")]
 pub struct Arguments {
     /// Address of the worker: http://HOST:PORT or unix:/PATH
+    #[arg(value_parser = address)]
     address: String,
 
     /// Longest time for an answer, in s
     #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = seconds)]
     timeout: f64,
+}
+
+fn address(text: &str) -> Result<String, String> {
+    if is_worker_address(text) {
+        return Ok(text.to_owned());
+    }
+    Err("it must be http://HOST:PORT or unix:/PATH".into())
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -38,9 +48,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         start: limit,
         answer: limit,
     };
-    let failed = |source| CommandError::Start {
+    let failed = |source: CallError| CommandError::Start {
         address: arguments.address.clone(),
-        source: linchpin_master::connection::StartError::Call(source),
+        source: Box::new(source.into()),
     };
     let worker = Grpc::connect(
         &arguments.address,
@@ -53,7 +63,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         protocol: Some(PROTOCOL),
     };
     let description = worker.describe(&request).map_err(failed)?;
-    print!("{}", text(&description));
+    print(text(&description))?;
     negotiate(description.protocol.as_ref()).map_err(|source| CommandError::Incompatible {
         address: arguments.address.clone(),
         source,

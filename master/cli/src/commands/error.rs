@@ -8,6 +8,7 @@ use linchpin_master::scene::SceneErrors;
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
+use crate::interrupt;
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
 use crate::study::StudyError;
@@ -21,14 +22,25 @@ pub enum CommandError {
     /// The run stopped.
     #[error(transparent)]
     Run(RunError),
-    /// A case of the scene stopped.
+    /// The run stopped, with results up to there.
+    #[error("{source}\n  note: {} has the rows up to there", table.display())]
+    Stopped {
+        /// Why.
+        source: Box<RunError>,
+        /// The table of results.
+        table: PathBuf,
+    },
+    /// A case of the scene failed.
     #[error("case \"{case}\": {source}")]
     Case {
         /// Name of the case.
         case: String,
         /// Why.
-        source: RunError,
+        source: Box<CommandError>,
     },
+    /// The standard output takes nothing more.
+    #[error("cannot write to the standard output: {0}")]
+    Output(std::io::Error),
     /// A folder or file cannot be written.
     #[error("cannot write to {}: {source}; choose another folder with --out", path.display())]
     Unwritable {
@@ -65,12 +77,12 @@ pub enum CommandError {
         flags: &'static str,
     },
     /// No worker at an address.
-    #[error("{address}: {source}")]
+    #[error("no description from {address}: {source}")]
     Start {
         /// The address.
         address: String,
         /// Why.
-        source: StartError,
+        source: Box<StartError>,
     },
     /// The worker speaks another protocol.
     #[error("{address}: {source}")]
@@ -92,9 +104,15 @@ pub enum CommandError {
 }
 
 impl CommandError {
-    /// Exit code: 2 for mistakes that a check of the scene finds, 1 for everything that happens later.
+    /// Exit code: 2 for mistakes that a check of the scene finds, [`interrupt::EXIT_CODE`] after an interrupt, 1 for
+    /// everything else that happens later.
     pub fn exit_code(&self) -> u8 {
         match self {
+            Self::Case { source, .. } => source.exit_code(),
+            Self::Run(RunError::Interrupted { .. }) => interrupt::EXIT_CODE,
+            Self::Stopped { source, .. } if matches!(**source, RunError::Interrupted { .. }) => {
+                interrupt::EXIT_CODE
+            }
             Self::NothingToStudy { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,
@@ -110,22 +128,26 @@ impl CommandError {
         }
     }
 
-    /// What ended a simulation.
-    pub fn from_simulation(error: SimulateError<Self>) -> Self {
-        match error {
-            SimulateError::Run(error) => Self::Run(error),
-            SimulateError::Record(error) => error,
+    /// What ended a simulation; `table` is where the rows are that it recorded, if there are any.
+    pub fn from_simulation(error: SimulateError<Self>, table: Option<PathBuf>) -> Self {
+        match (error, table) {
+            (SimulateError::Run(source), Some(table)) => Self::Stopped {
+                source: Box::new(source),
+                table,
+            },
+            (SimulateError::Run(source), None) => Self::Run(source),
+            (SimulateError::Record(error), _) => error,
         }
     }
 
-    /// Says which case an error belongs to.
+    /// Says which case an error belongs to, unless its place tells.
     pub fn in_case(self, case: &str) -> Self {
-        match self {
-            Self::Run(source) if !matches!(source, RunError::Scene(_)) => Self::Case {
-                case: case.to_owned(),
-                source,
-            },
-            other => other,
+        if self.scene_errors().is_some() {
+            return self;
+        }
+        Self::Case {
+            case: case.to_owned(),
+            source: Box::new(self),
         }
     }
 }

@@ -2,12 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
+use linchpin_master::Interrupt;
 use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, file_name, prepare_folder};
+use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print};
 use crate::connect::{Connector, Place};
+use crate::interrupt;
 use crate::results::{RunRecorder, RunReport, draw};
 use crate::simulate::simulate;
 
@@ -20,7 +22,7 @@ use crate::simulate::simulate;
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
 DIR/results.svg and DIR/results.png. A scene with cases runs them one after the other, each in a folder of its own, and
-draws them together.")]
+draws them together. What a run records stays if it fails; Ctrl-C ends it in good order, with exit code 130.")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -54,42 +56,62 @@ impl Arguments {
 /// Runs the scene, or all its cases.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
+    let case_folders = case_folders(&scene)?;
     let folder = arguments.output.prepare(&scene)?;
+    let job = Job {
+        arguments,
+        interrupt: interrupt::on_signals()?,
+        pictures: folder.join("results"),
+    };
     let mut reports = Vec::new();
     if scene.cases.is_empty() {
-        reports.push(run_one(arguments, &scene, None, &folder)?);
+        reports.push(job.run(&scene, None, &folder)?);
     }
-    for case in &scene.cases {
-        let own = folder.join(file_name(&case.name));
+    for (case, own) in scene.cases.iter().zip(case_folders) {
+        let own = folder.join(own);
         prepare_folder(&own)?;
         let scene = scene.with_case(case)?;
-        let report = run_one(arguments, &scene, Some(&case.name), &own);
+        let report = job.run(&scene, Some(&case.name), &own);
         reports.push(report.map_err(|error| error.in_case(&case.name))?);
     }
     if !arguments.no_plots {
-        draw(&scene, &reports, &folder.join("results"))?;
+        draw(&scene, &reports, &job.pictures)?;
     }
     if !arguments.output.quiet {
-        println!("results in {}", folder.display());
+        print(format_args!("results in {}\n", folder.display()))?;
     }
     Ok(())
 }
 
-fn run_one(
-    arguments: &Arguments,
-    scene: &Scene,
-    case: Option<&str>,
-    folder: &Path,
-) -> Result<RunReport, CommandError> {
-    let connector = Connector::new(arguments.place());
-    let table: PathBuf = folder.join("results.csv");
-    let mut recorder = RunRecorder::new(scene, &table, arguments.output.shows_progress())?;
-    let statistics = simulate(scene, &connector, &Options::default(), &mut recorder)
-        .map_err(CommandError::from_simulation)?;
-    let report = recorder.finish(statistics)?;
-    report.write_json(scene, &arguments.scene, case, &folder.join("run.json"))?;
-    if !arguments.output.quiet {
-        println!("{}", report.summary(scene, case));
+/// What all runs of one command share.
+struct Job<'a> {
+    arguments: &'a Arguments,
+    interrupt: Interrupt,
+    /// Path of the pictures without its ending.
+    pictures: PathBuf,
+}
+
+impl Job<'_> {
+    fn run(
+        &self,
+        scene: &Scene,
+        case: Option<&str>,
+        folder: &Path,
+    ) -> Result<RunReport, CommandError> {
+        let output = &self.arguments.output;
+        let connector = Connector::new(self.arguments.place()).stopped_by(self.interrupt.clone());
+        let report_path = folder.join("run.json");
+        let stale = ["svg", "png"].map(|ending| self.pictures.with_extension(ending));
+        let stale = [&stale[..], std::slice::from_ref(&report_path)].concat();
+        let mut recorder = RunRecorder::new(scene, folder, stale, output.shows_progress());
+        let report = match simulate(scene, &connector, &Options::default(), &mut recorder) {
+            Ok(statistics) => recorder.finish(statistics)?,
+            Err(error) => return Err(CommandError::from_simulation(error, recorder.give_up())),
+        };
+        report.write_json(scene, &self.arguments.scene, case, &report_path)?;
+        if !output.quiet {
+            print(format_args!("{}\n", report.summary(scene, case)))?;
+        }
+        Ok(report)
     }
-    Ok(report)
 }

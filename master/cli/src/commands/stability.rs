@@ -5,7 +5,7 @@ use std::str::FromStr;
 use linchpin_master::scene::Override;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments};
+use super::common::{OutputArguments, SceneArguments, print};
 use crate::study::progress;
 use crate::study::stability::{Grid, draw_map, map, number_of_points, summary, write_csv};
 
@@ -16,8 +16,8 @@ use crate::study::stability::{Grid, draw_map, map, number_of_points, summary, wr
   linchpin stability scenes/oscillator.toml --x 'subsystem.*.parameters.c=1e1:1e8:25:log' \\
       --y 'subsystem.*.parameters.d=1e-1:1e5:25:log'
 
-Runs in parallel and in this process. A point is stable if the positions do not grow tenfold from the first to the last
-tenth of the macro steps. Where the scene is linear, its solvers exact and its states described, the spectral radius of
+Runs in parallel and in this process. A point is stable if no position or velocity grows tenfold from the first to
+the last tenth of the macro steps. Where the scene is linear, its solvers exact and its states described, the spectral radius of
 the macro-step map is found as well. Writes DIR/stability.csv, DIR/stability.svg and .png. A scene with cases gives one
 panel for each.")]
 pub struct Arguments {
@@ -141,8 +141,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     })?;
     draw_map(&maps, &grid, &folder.join("stability"))?;
     if !arguments.output.quiet {
-        print!("{}", summary(&maps));
-        println!("results in {}", folder.display());
+        print(format_args!(
+            "{}results in {}\n",
+            summary(&maps),
+            folder.display()
+        ))?;
     }
     Ok(())
 }

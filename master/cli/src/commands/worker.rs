@@ -31,8 +31,8 @@ pub struct Arguments {
     threads: u16,
 
     /// Most instances at a time
-    #[arg(long, value_name = "N", default_value_t = Limits::default().instances)]
-    max_instances: usize,
+    #[arg(long, value_name = "N", default_value_t = Limits::default().instances as u32, value_parser = clap::value_parser!(u32).range(1..))]
+    max_instances: u32,
 
     /// End when the standard input is closed, as a master does that started this worker
     #[arg(long)]
@@ -56,7 +56,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 
 async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
     let limits = Limits {
-        instances: arguments.max_instances,
+        instances: arguments.max_instances as usize,
         ..Limits::default()
     };
     let host = Arc::new(Host::with_limits(models(), limits));

@@ -7,17 +7,22 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressStyle};
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
+use serde::Serialize;
 
 use super::{RunReport, Trace};
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
+use crate::commands::common::remove_stale;
 use crate::error_norm::ErrorMeter;
 use crate::simulate::Recorder;
 
 /// Writes `results.csv` and collects what report and picture need.
+///
+/// Nothing in the folder is touched before the run has started, so a mistake in the scene spoils no earlier results.
 pub struct RunRecorder {
-    path: PathBuf,
-    table: csv::Writer<File>,
+    folder: PathBuf,
+    stale: Vec<PathBuf>,
+    table: Option<csv::Writer<File>>,
     closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
     traces: Vec<(usize, Trace)>,
@@ -26,20 +31,20 @@ pub struct RunRecorder {
     started: Instant,
 }
 
+/// The table of results.
+const TABLE: &str = "results.csv";
+
 /// Pause between two drawings of the progress bar.
 const REFRESH: Duration = Duration::from_millis(100);
 
 impl RunRecorder {
-    /// Opens the table at `path`.
-    pub fn new(scene: &Scene, path: &Path, shows_progress: bool) -> Result<Self, CommandError> {
-        let unwritable = |source| CommandError::Unwritable {
-            path: path.to_owned(),
-            source,
-        };
-        let file = File::create(path).map_err(unwritable)?;
-        Ok(Self {
-            path: path.to_owned(),
-            table: csv::Writer::from_writer(file),
+    /// A recorder that will write to `folder`. The files `stale` of an earlier run are removed when this one has
+    /// started.
+    pub fn new(scene: &Scene, folder: &Path, stale: Vec<PathBuf>, shows_progress: bool) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            stale,
+            table: None,
             closed_form: ClosedForm::of(scene),
             errors: None,
             traces: Vec::new(),
@@ -50,16 +55,18 @@ impl RunRecorder {
             },
             t_start: scene.t_start,
             started: Instant::now(),
-        })
+        }
     }
 
     /// Closes the table.
     pub fn finish(mut self, statistics: Statistics) -> Result<RunReport, CommandError> {
         self.bar.finish_and_clear();
-        let path = self.path.clone();
-        self.table
-            .flush()
-            .map_err(|source| CommandError::Unwritable { path, source })?;
+        if let Some(table) = &mut self.table {
+            let path = self.folder.join(TABLE);
+            table
+                .flush()
+                .map_err(|source| CommandError::Unwritable { path, source })?;
+        }
         Ok(RunReport {
             statistics,
             errors: self.errors,
@@ -68,11 +75,33 @@ impl RunRecorder {
         })
     }
 
-    fn table_error(&self, source: csv::Error) -> CommandError {
-        CommandError::Table {
-            path: self.path.clone(),
-            source,
+    /// Closes the table of a run that failed, and tells where it is; `None` if the run had not started.
+    pub fn give_up(mut self) -> Option<PathBuf> {
+        self.bar.finish_and_clear();
+        // The run has failed for another reason, which is the one to be told.
+        self.table.as_mut()?.flush().ok()?;
+        Some(self.folder.join(TABLE))
+    }
+
+    fn open_table(&mut self) -> Result<(), CommandError> {
+        for path in &self.stale {
+            remove_stale(path)?;
         }
+        let path = self.folder.join(TABLE);
+        let file = File::create(&path);
+        let file = file.map_err(|source| CommandError::Unwritable { path, source })?;
+        self.table = Some(csv::Writer::from_writer(file));
+        Ok(())
+    }
+
+    fn write(&mut self, row: impl Serialize) -> Result<(), CommandError> {
+        let Some(table) = &mut self.table else {
+            return Ok(());
+        };
+        table.serialize(row).map_err(|source| CommandError::Table {
+            path: self.folder.join(TABLE),
+            source,
+        })
     }
 }
 
@@ -99,9 +128,8 @@ impl Recorder for RunRecorder {
             .closed_form
             .take()
             .map(|closed_form| ErrorMeter::new(closed_form, row));
-        self.table
-            .write_record(row.columns())
-            .map_err(|error| self.table_error(error))
+        self.open_table()?;
+        self.write(row.columns())
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
@@ -112,9 +140,7 @@ impl Recorder for RunRecorder {
             errors.add(row);
         }
         // Shortest text that reads back to the same bits.
-        self.table
-            .serialize(row.values())
-            .map_err(|error| self.table_error(error))
+        self.write(row.values())
     }
 
     fn progress(&mut self, done: usize, all: usize, t: f64) {

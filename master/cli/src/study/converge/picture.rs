@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{CaseRuns, ConvergeRun, Outcome, Quantity, least_squares};
+use super::{CaseRuns, ConvergeRun, Outcome, Quantity, neighbouring};
 use crate::plot::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, convergence};
 
 /// Slopes beyond these are due to rounding or divergence and get no line.
@@ -87,13 +87,18 @@ fn cost(run: &ConvergeRun) -> Option<f64> {
     }
 }
 
-/// The whole numbers next to the observed orders, each once.
+/// The multiples of a half next to the orders that the smallest macro steps show, each once.
 fn slopes(cases: &[CaseRuns], quantity: Quantity) -> Vec<f64> {
-    let orders = cases
+    let last_order = |case: &CaseRuns| {
+        neighbouring(&case.runs, quantity)
+            .into_iter()
+            .flatten()
+            .last()
+    };
+    let mut slopes: Vec<f64> = cases
         .iter()
-        .filter_map(|case| least_squares(&case.runs, quantity));
-    let mut slopes: Vec<f64> = orders
-        .map(f64::round)
+        .filter_map(last_order)
+        .map(|order| (2.0 * order).round() / 2.0)
         .filter(|slope| SLOPES.contains(slope))
         .collect();
     slopes.sort_by(f64::total_cmp);

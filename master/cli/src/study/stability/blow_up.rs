@@ -6,28 +6,30 @@ use linchpin_master::{CoSimulation, RunError};
 use linchpin_proto::v1::{Model, Value, value::Kind as ValueKind};
 
 use super::Simulated;
-use crate::study::runs::{Kind, divergence};
+use crate::study::runs::{Kind, divergence, record};
 
 /// The initial values of each further subsystem are larger than those of the first by this share, so that the joints
 /// are open at first: the motion in which they open is excited from the start, and not only by rounding.
-const EXCITATION: f64 = 0.01;
+const EXCITATION: f64 = 0.1;
 
 /// Share of the steps at the start and at the end that are compared.
 const PART: usize = 10;
 
-/// Simulates and compares the largest positions at the end with those at the start.
+/// Growth or decay by this factor since the start is decided; going on would only leave the range of numbers.
+const DECIDED: f64 = 1e100;
+
+/// Simulates and compares the largest positions and velocities at the end with those at the start.
+///
+/// Velocities as well: an unstable mode that changes its sign in every macro step moves the markers by little more than
+/// `v H`, and shows in the positions late.
 pub struct BlowUp {
-    positions: Vec<String>,
+    columns: Vec<(String, Kind)>,
 }
 
 impl BlowUp {
-    pub fn new(columns: Vec<(String, Kind)>) -> Self {
-        let positions = columns
-            .into_iter()
-            .filter(|(_, kind)| *kind == Kind::Position);
-        Self {
-            positions: positions.map(|(column, _)| column).collect(),
-        }
+    pub fn new(mut columns: Vec<(String, Kind)>) -> Self {
+        columns.retain(|(_, kind)| *kind != Kind::Multiplier);
+        Self { columns }
     }
 
     pub fn simulate(
@@ -36,7 +38,8 @@ impl BlowUp {
         models: &[Model],
         connect: &mut Connect<'_>,
     ) -> Result<Simulated, RunError> {
-        let scene = excited(scene, models);
+        let mut scene = excited(scene, models);
+        record(&mut scene, &self.columns);
         let options = Options {
             watch_nothing: true,
             accept_open_joints: true,
@@ -53,34 +56,72 @@ impl BlowUp {
         }
     }
 
+    /// The largest growth of all columns.
     fn growth(&self, simulation: &mut CoSimulation) -> Result<f64, RunError> {
-        let columns = simulation.row().columns().iter();
-        let places: Vec<usize> = columns
-            .enumerate()
-            .filter(|(_, column)| self.positions.contains(column))
-            .map(|(place, _)| place)
-            .collect();
+        let names = simulation.row().columns();
+        let columns = self.columns.iter();
+        let places = columns.filter_map(|(column, _)| names.iter().position(|name| name == column));
+        let mut extents: Vec<Extent> = places.map(Extent::of_column).collect();
         let steps = simulation.grid().len();
         let part = steps.div_ceil(PART);
-        let (mut at_start, mut at_end) = (0.0_f64, 0.0_f64);
+        let first_size = largest(simulation, &extents);
         while simulation.macro_step()? {
-            let values = simulation.row().values();
-            let largest = places.iter().map(|&place| values[place].abs());
-            let largest = largest.fold(0.0, f64::max);
-            if simulation.steps_done() <= part {
-                at_start = at_start.max(largest);
+            let done = simulation.steps_done();
+            for extent in &mut extents {
+                extent.add(simulation.row().values(), done <= part, done > steps - part);
             }
-            if simulation.steps_done() > steps - part {
-                at_end = at_end.max(largest);
+            let size = largest(simulation, &extents);
+            if first_size > 0.0 && size > DECIDED * first_size {
+                return Ok(f64::INFINITY);
+            }
+            if size < first_size / DECIDED {
+                return Ok(0.0);
             }
         }
-        // Positions that stay 0 do not grow.
-        Ok(if at_end == 0.0 {
+        Ok(extents.iter().map(Extent::growth).fold(0.0, f64::max))
+    }
+}
+
+/// Largest sizes of one column.
+struct Extent {
+    place: usize,
+    at_start: f64,
+    at_end: f64,
+}
+
+impl Extent {
+    fn of_column(place: usize) -> Self {
+        Self {
+            place,
+            at_start: 0.0,
+            at_end: 0.0,
+        }
+    }
+
+    fn add(&mut self, values: &[f64], is_start: bool, is_end: bool) {
+        let size = values[self.place].abs();
+        if is_start {
+            self.at_start = self.at_start.max(size);
+        }
+        if is_end {
+            self.at_end = self.at_end.max(size);
+        }
+    }
+
+    fn growth(&self) -> f64 {
+        // What stays 0 does not grow.
+        if self.at_end == 0.0 {
             0.0
         } else {
-            at_end / at_start
-        })
+            self.at_end / self.at_start
+        }
     }
+}
+
+fn largest(simulation: &CoSimulation, extents: &[Extent]) -> f64 {
+    let values = simulation.row().values();
+    let sizes = extents.iter().map(|extent| values[extent.place].abs());
+    sizes.fold(0.0, f64::max)
 }
 
 fn excited(scene: &Scene, models: &[Model]) -> Scene {

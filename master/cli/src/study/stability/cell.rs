@@ -16,7 +16,8 @@ pub struct Cell {
 /// What a simulation showed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Simulated {
-    /// Largest position in the last tenth of the macro steps over that in the first; infinite if the run failed.
+    /// Largest growth of a position or velocity: its largest size in the last tenth of the macro steps over that in the
+    /// first; infinite if the run failed.
     pub growth: f64,
     /// Number of macro steps.
     pub steps: usize,
@@ -33,7 +34,7 @@ pub enum Agreement {
     Disagree,
 }
 
-/// A simulation whose positions have grown by more than this is unstable.
+/// A simulation in which a position or velocity has grown by more than this is unstable.
 const MOST_GROWTH: f64 = 10.0;
 
 /// A map is stable up to this spectral radius: 1, and rounding.
@@ -44,7 +45,7 @@ const STABLE_RADIUS: f64 = 1.0 + 1e-9;
 const TELLING: f64 = 1e3;
 
 impl Simulated {
-    /// Whether the positions stayed bounded.
+    /// Whether positions and velocities stayed bounded.
     pub fn is_stable(&self) -> bool {
         self.growth <= MOST_GROWTH
     }

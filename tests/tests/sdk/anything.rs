@@ -1,0 +1,178 @@
+//! Whatever a message says: the worker answers, and the instance behind it stays sound.
+
+use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::v1;
+use proptest::prelude::*;
+
+use crate::driver::{Driver, number, oscillator, tank};
+use crate::peer::host;
+use crate::tank::START;
+
+fn numbers() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        3 => -3.0..3.0f64,
+        1 => Just(0.0),
+        1 => any::<f64>(),
+        1 => prop_oneof![Just(f64::NAN), Just(f64::INFINITY), Just(f64::MAX), Just(5e-324)],
+    ]
+}
+
+fn signal() -> impl Strategy<Value = v1::Signal> {
+    let points = proptest::collection::vec((numbers(), numbers()), 0..10);
+    (0u32..4, points, any::<bool>()).prop_map(|(input, points, equal)| {
+        let (nodes, mut values): (Vec<f64>, Vec<f64>) = points.into_iter().unzip();
+        if !equal {
+            values.pop();
+        }
+        v1::Signal {
+            input,
+            nodes,
+            values,
+        }
+    })
+}
+
+fn signals() -> impl Strategy<Value = Vec<v1::Signal>> {
+    proptest::collection::vec(signal(), 0..4)
+}
+
+#[derive(Debug, Clone)]
+enum Call {
+    Step(v1::StepRequest),
+    Perturbed(v1::PerturbedStepRequest),
+    Evaluate(v1::EvaluateRequest),
+    Exchange(v1::ExchangeRequest),
+    Snapshot(v1::SnapshotRequest),
+    Restore(v1::RestoreRequest),
+}
+
+prop_compose! {
+    fn step()(sequence in 40u64..46, outputs in -1..3i32, t in numbers(), step in numbers(), signals in signals())
+        -> v1::StepRequest {
+        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs }
+    }
+}
+
+prop_compose! {
+    fn look()(t in numbers(), step in numbers(), signals in signals(), perturbed in signals()) -> v1::Predict {
+        v1::Predict { t, step, signals, perturbed }
+    }
+}
+
+fn call() -> impl Strategy<Value = Call> {
+    let name = prop_oneof![Just("level".to_owned()), Just("x".to_owned()), ".{0,3}"];
+    let optional = |present: bool, look: v1::Predict| present.then_some(look);
+    prop_oneof![
+        step().prop_map(Call::Step),
+        (step(), look()).prop_map(|(step, look)| Call::Perturbed(v1::PerturbedStepRequest {
+            instance: 5,
+            sequence: step.sequence,
+            t: look.t,
+            step: look.step,
+            signals: look.signals,
+            perturbed: look.perturbed,
+        })),
+        (look(), proptest::collection::vec(name, 0..3)).prop_map(|(look, outputs)| {
+            Call::Evaluate(v1::EvaluateRequest {
+                instance: 5,
+                t: look.t,
+                signals: look.signals,
+                outputs,
+            })
+        }),
+        (step(), look(), any::<bool>(), any::<bool>()).prop_map(
+            move |(step, look, advances, predicts)| {
+                Call::Exchange(v1::ExchangeRequest {
+                    instance: 5,
+                    sequence: step.sequence,
+                    advance: advances.then_some(v1::Advance {
+                        t: step.t,
+                        step: step.step,
+                        signals: step.signals,
+                    }),
+                    predict: optional(predicts, look),
+                })
+            }
+        ),
+        (40u64..46, proptest::option::of(0u64..4)).prop_map(|(sequence, replaces)| {
+            Call::Snapshot(v1::SnapshotRequest {
+                instance: 5,
+                sequence,
+                replaces,
+            })
+        }),
+        (40u64..46, 0u64..4).prop_map(|(sequence, snapshot)| {
+            Call::Restore(v1::RestoreRequest {
+                instance: 5,
+                sequence,
+                snapshot,
+            })
+        }),
+    ]
+}
+
+fn make(calls: &dyn Contract, call: &Call) -> Result<(), CallError> {
+    match call {
+        Call::Step(request) => calls.step(request).map(drop),
+        Call::Perturbed(request) => calls.perturbed_step(request).map(drop),
+        Call::Evaluate(request) => calls.evaluate(request).map(drop),
+        Call::Exchange(request) => calls.exchange(request, &mut v1::ExchangeReply::default()),
+        Call::Snapshot(request) => calls.snapshot(request).map(drop),
+        Call::Restore(request) => calls.restore(request).map(drop),
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn an_oscillator_survives_any_calls(
+        calls in proptest::collection::vec(call(), 1..12),
+        solver in prop_oneof![Just("exact"), Just("radau5")],
+    ) {
+        let host = host();
+        let driver = Driver::initialize(host.clone(), &oscillator(5, solver));
+        for call in calls {
+            if let Err(error) = make(&*host, &call) {
+                let CallError::Failed(failure) = error else { panic!("{error}") };
+                prop_assert!(!failure.message.contains("panicked"), "{:?}: {:?}", call, failure);
+            }
+        }
+        let state = driver.evaluate(vec![], &["x", "v"]).unwrap();
+        prop_assert!(state.iter().all(|value| value.is_finite()), "{:?}", state);
+    }
+
+    /// Wherever this tank goes it overflows, after it has changed its level; below 0 it panics, as it should.
+    #[test]
+    fn calls_that_fail_change_nothing(calls in proptest::collection::vec(call(), 1..12)) {
+        let host = host();
+        let mut request = tank(5);
+        request.parameters.insert("capacity".into(), number(f64::MIN_POSITIVE));
+        let driver = Driver::initialize(host.clone(), &request);
+        for call in calls {
+            match make(&*host, &call) {
+                Err(CallError::Failed(failure)) if failure.message.contains("panicked") => return Ok(()),
+                _ => prop_assert_eq!(driver.level(), START, "{:?}", call),
+            }
+        }
+    }
+
+    #[test]
+    fn any_initialize_is_answered(
+        name in ".{0,6}", value in numbers(), t_start in numbers(), known in any::<bool>(),
+        inputs in proptest::collection::vec(prop_oneof![Just("f".to_owned()), ".{0,3}"], 0..4),
+    ) {
+        let host = host();
+        let mut request = v1::InitializeRequest { t_start, inputs, ..oscillator(5, "radau5") };
+        let name = if known { "m".to_owned() } else { name };
+        request.parameters.insert(name, number(value));
+        match host.initialize(&request) {
+            Ok(_) => prop_assert!(value > 0.0 && t_start.is_finite() && host.instances() == 1),
+            Err(CallError::Failed(failure)) => {
+                prop_assert!(!failure.message.contains("panicked"), "{:?}", failure);
+                prop_assert_eq!(host.instances(), 0);
+            }
+            Err(other) => panic!("{other}"),
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! The worker SDK against the contract: the same tests in this process and over gRPC.
+
+#![allow(clippy::unwrap_used)]
+
+mod anything;
+mod driver;
+mod exchange;
+mod initialize;
+mod instances;
+mod peer;
+mod repeated_steps;
+mod scripted;
+mod sequence;
+mod serving;
+mod signals;
+mod snapshots;
+mod tank;
+
+/// Makes two tests of every function: with the contract in this process, and behind a server on a Unix socket.
+macro_rules! both_ways {
+    ($($name:ident),+ $(,)?) => {
+        mod in_process {
+            $(#[test] fn $name() { super::$name(crate::peer::Peer::in_process); })+
+        }
+        mod over_grpc {
+            $(#[test] fn $name() { super::$name(crate::peer::Peer::over_grpc); })+
+        }
+    };
+}
+pub(crate) use both_ways;

@@ -1,0 +1,194 @@
+//! A worker as its master reaches it.
+
+use std::sync::{Arc, Mutex};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use linchpin_master::Interrupt;
+use linchpin_master::connection::{Connection, ExchangeStream, Grpc, TimeLimits, new_runtime};
+use linchpin_models::models;
+use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::v1;
+use linchpin_worker::Host;
+use linchpin_worker::host::Limits;
+use linchpin_worker::server::{Address, Reach, Server};
+use tempfile::TempDir;
+use tokio::sync::oneshot;
+
+use crate::tank::Tank;
+
+/// How a test reaches its worker.
+pub type Serve = fn(Arc<dyn Contract>) -> Peer;
+
+/// The built-in models and the tank, with the default limits.
+pub fn host() -> Arc<Host> {
+    host_with(Limits::default())
+}
+
+/// The built-in models and the tank.
+pub fn host_with(limits: Limits) -> Arc<Host> {
+    let mut all = models();
+    all.push(Box::new(Tank));
+    Arc::new(Host::with_limits(all, limits))
+}
+
+/// A worker, and the server between if there is one.
+pub struct Peer {
+    calls: Arc<dyn Contract>,
+    _server: Option<Served>,
+}
+
+impl Peer {
+    pub fn in_process(contract: Arc<dyn Contract>) -> Self {
+        Self {
+            calls: contract,
+            _server: None,
+        }
+    }
+
+    pub fn over_grpc(contract: Arc<dyn Contract>) -> Self {
+        let server = Served::start(contract);
+        Self {
+            calls: Arc::new(Remote::connect(&server.address)),
+            _server: Some(server),
+        }
+    }
+
+    /// The worker as it is reached.
+    pub fn calls(&self) -> Arc<dyn Contract> {
+        Arc::clone(&self.calls)
+    }
+}
+
+/// A server on a Unix socket that runs on a thread of its own. Dropping it shuts it down.
+pub struct Served {
+    pub address: String,
+    stop: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+    _folder: TempDir,
+}
+
+impl Served {
+    pub fn start(contract: Arc<dyn Contract>) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let socket = Address::Unix(folder.path().join("worker.sock"));
+        let address = socket.to_string();
+        let (stop, stopped) = oneshot::channel();
+        let (listening, listens) = std::sync::mpsc::channel();
+        let thread = std::thread::spawn(move || {
+            let runtime = new_runtime().unwrap();
+            runtime.block_on(async {
+                let server = Server::bind(contract, socket, Reach::Local).await.unwrap();
+                listening.send(()).unwrap();
+                let shutdown = async move { drop(stopped.await) };
+                server.serve(shutdown).await.unwrap();
+            });
+        });
+        listens.recv().unwrap();
+        Self {
+            address,
+            stop: Some(stop),
+            thread: Some(thread),
+            _folder: folder,
+        }
+    }
+
+    /// Asks the server to stop, without waiting for that.
+    pub fn stop(&mut self) {
+        drop(self.stop.take());
+    }
+
+    /// Waits until the server has ended after [`Served::stop`].
+    pub fn wait(&mut self) {
+        if let Some(thread) = self.thread.take() {
+            thread.join().unwrap();
+        }
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        self.stop();
+        self.wait();
+    }
+}
+
+/// A worker behind gRPC: unary calls, and exchanges over one stream.
+pub struct Remote {
+    grpc: Grpc,
+    stream: Mutex<ExchangeStream>,
+}
+
+impl Remote {
+    pub fn connect(address: &str) -> Self {
+        Self {
+            grpc: grpc(address),
+            stream: Mutex::new(ExchangeStream::new(grpc(address))),
+        }
+    }
+}
+
+/// A client of its own for the unary calls.
+pub fn grpc(address: &str) -> Grpc {
+    let limits = TimeLimits {
+        start: Duration::from_secs(5),
+        answer: Duration::from_secs(10),
+    };
+    Grpc::connect(
+        address,
+        limits,
+        new_runtime().unwrap(),
+        Interrupt::default(),
+    )
+    .unwrap()
+}
+
+impl Contract for Remote {
+    fn describe(&self, request: &v1::DescribeRequest) -> Result<v1::DescribeReply, CallError> {
+        self.grpc.describe(request)
+    }
+
+    fn initialize(
+        &self,
+        request: &v1::InitializeRequest,
+    ) -> Result<v1::InitializeReply, CallError> {
+        self.grpc.initialize(request)
+    }
+
+    fn snapshot(&self, request: &v1::SnapshotRequest) -> Result<v1::SnapshotReply, CallError> {
+        self.grpc.snapshot(request)
+    }
+
+    fn restore(&self, request: &v1::RestoreRequest) -> Result<v1::RestoreReply, CallError> {
+        self.grpc.restore(request)
+    }
+
+    fn step(&self, request: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
+        self.grpc.step(request)
+    }
+
+    fn perturbed_step(
+        &self,
+        request: &v1::PerturbedStepRequest,
+    ) -> Result<v1::PerturbedStepReply, CallError> {
+        self.grpc.perturbed_step(request)
+    }
+
+    fn evaluate(&self, request: &v1::EvaluateRequest) -> Result<v1::EvaluateReply, CallError> {
+        self.grpc.evaluate(request)
+    }
+
+    fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
+        self.grpc.terminate(request)
+    }
+
+    fn exchange(
+        &self,
+        request: &v1::ExchangeRequest,
+        reply: &mut v1::ExchangeReply,
+    ) -> Result<(), CallError> {
+        let mut stream = self.stream.lock().unwrap();
+        stream.post(request)?;
+        stream.collect(reply)
+    }
+}

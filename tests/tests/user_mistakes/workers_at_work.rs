@@ -1,0 +1,95 @@
+//! Workers that fail in the middle of a run.
+
+use std::time::Duration;
+
+use linchpin_proto::v1::Failure;
+use linchpin_tests::process::{Outcome, Peer, Workshop};
+use linchpin_worker::scripted::{Act, Scripted};
+
+use crate::{exists, rows, run, workshop};
+
+/// Exchange number 0 looks ahead from the start, so exchange `STEP` ends macro step number `STEP`.
+const STEP: u64 = 18;
+
+/// Runs with a scripted peer as the second mass; the step under way starts at t = 0.017 s.
+fn run_with_peer(script: impl FnOnce(Scripted) -> Scripted) -> (Workshop, Outcome) {
+    let workshop = workshop(&[]);
+    let peer = Peer::scripted(&workshop, script);
+    let setting = format!("subsystem.mass2.address={}", peer.address());
+    let outcome = workshop.run(&run(&["--set", &setting, "--set", "run.deadline=0.4"]));
+    (workshop, outcome)
+}
+
+/// The run stopped in step [`STEP`], with the rows before it.
+#[track_caller]
+fn stopped(script: impl FnOnce(Scripted) -> Scripted, words: &[&str]) -> Outcome {
+    let (workshop, outcome) = run_with_peer(script);
+    let words = [&["\"mass2\"", "t = 0.017", "out/results.csv"], words].concat();
+    outcome.fails(1, &words);
+    assert_eq!(rows(&workshop).len() as u64, STEP, "{outcome}");
+    assert!(!exists(&workshop, "out/run.json"), "{outcome}");
+    outcome
+}
+
+#[test]
+fn a_true_peer_reaches_the_end() {
+    let (workshop, outcome) = run_with_peer(|peer| peer);
+    outcome.succeeds();
+    assert_eq!(rows(&workshop).len(), 1001);
+}
+
+#[test]
+fn a_number_that_is_none() {
+    for value in [f64::NAN, f64::INFINITY] {
+        let put = Act::Put { output: 1, value };
+        let words = ["output \"v\"", &value.to_string(), "coupling.macro_step"];
+        stopped(|peer| peer.at_exchange(STEP, put), &words);
+    }
+}
+
+#[test]
+fn an_output_that_is_missing() {
+    stopped(
+        |peer| peer.at_exchange(STEP, Act::ForgetOutput),
+        &["outputs instead of", "contract"],
+    );
+}
+
+#[test]
+fn a_failure_that_a_smaller_step_may_cure() {
+    let failure = Failure::recoverable(0.0175, 1e-3, "Newton did not converge at t = 0.0175 s");
+    let words = ["Newton did not converge", "smaller coupling.macro_step"];
+    stopped(|peer| peer.at_exchange(STEP, Act::Fail(failure)), &words);
+}
+
+#[test]
+fn a_failure_for_good() {
+    let failure = Failure::fatal("the mesh is torn");
+    let outcome = stopped(
+        |peer| peer.at_exchange(STEP, Act::Fail(failure)),
+        &["the mesh is torn"],
+    );
+    assert!(
+        !outcome.stderr.contains("smaller coupling.macro_step"),
+        "{outcome}"
+    );
+}
+
+#[test]
+fn a_worker_that_hangs_from_the_start() {
+    let hang = Act::Wait(Duration::from_secs(6));
+    let (workshop, outcome) = run_with_peer(|peer| peer.at_exchange(0, hang));
+    outcome.fails(1, &["\"mass2\"", "t = 0 s", "within 0.4 s", "run.deadline"]);
+    outcome.takes_less_than(Duration::from_secs(4));
+    assert!(!exists(&workshop, "out/results.csv"), "{outcome}");
+}
+
+#[test]
+fn a_worker_that_hangs() {
+    let hang = Act::Wait(Duration::from_secs(6));
+    let outcome = stopped(
+        |peer| peer.at_exchange(STEP, hang),
+        &["within 0.4 s", "run.deadline"],
+    );
+    outcome.takes_less_than(Duration::from_secs(4));
+}

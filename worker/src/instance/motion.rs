@@ -1,0 +1,312 @@
+//! A subsystem on its way: steps, outputs, and the states that it can go back to.
+
+use std::time::Instant;
+
+use linchpin_proto::v1::{self, Failure};
+
+use super::signals::{Signals, find};
+use crate::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
+
+/// Every state that the subsystem reaches gets a number, so that a step is known to start where another did.
+type StateNumber = u64;
+
+/// A state with its number.
+#[derive(Default)]
+pub(super) struct Kept {
+    number: StateNumber,
+    snapshot: Snapshot,
+}
+
+impl Kept {
+    /// Copies into memory that is already there.
+    pub(super) fn copy_from(&mut self, other: &Self) {
+        self.number = other.number;
+        self.snapshot.clear();
+        self.snapshot.put_bytes(other.snapshot.bytes());
+    }
+}
+
+/// A subsystem with its signals, and the state that it has for its master.
+///
+/// The solver itself may stand elsewhere, at the end of a step that was only tried; every call goes back first.
+pub(super) struct Motion {
+    subsystem: Box<dyn Subsystem>,
+    signals: Signals,
+    outputs: Vec<v1::Variable>,
+    coupling_outputs: Vec<usize>,
+    all_outputs: Vec<usize>,
+    stands_at: StateNumber,
+    newest: StateNumber,
+    last_step: Option<(Interval, StateNumber)>,
+    committed: Kept,
+    advanced: Kept,
+    integrations: u64,
+}
+
+/// Which state a step starts from.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Base {
+    Committed,
+    Advanced,
+}
+
+/// How far a prediction looks.
+#[derive(Clone, Copy)]
+pub(super) enum Horizon {
+    Step(Interval),
+    Now(f64),
+}
+
+/// Which internal steps the solver takes.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sequence {
+    Own,
+    Repeated,
+}
+
+impl Motion {
+    pub(super) fn new(
+        subsystem: Box<dyn Subsystem>,
+        model: &v1::Model,
+        request: &v1::InitializeRequest,
+    ) -> Result<Self, Failure> {
+        let outputs = &model.outputs;
+        let coupling_outputs = find(outputs, &request.coupling_outputs, "coupling_outputs")?;
+        let mut all_outputs = coupling_outputs.clone();
+        all_outputs.extend(find(
+            outputs,
+            &request.recorded_outputs,
+            "recorded_outputs",
+        )?);
+        let mut committed = Kept::default();
+        subsystem.snapshot(&mut committed.snapshot);
+        Ok(Self {
+            subsystem,
+            signals: Signals::new(&model.inputs, &request.inputs)?,
+            outputs: outputs.clone(),
+            coupling_outputs,
+            all_outputs,
+            stands_at: committed.number,
+            newest: committed.number,
+            last_step: None,
+            committed,
+            advanced: Kept::default(),
+            integrations: 0,
+        })
+    }
+
+    pub(super) fn committed(&self) -> &Kept {
+        &self.committed
+    }
+
+    /// Takes the signals of a request for the steps that follow.
+    pub(super) fn set_signals(&mut self, signals: &[v1::Signal]) -> Result<(), Failure> {
+        self.signals.set(signals)
+    }
+
+    /// Steps from the committed state and reads outputs; [`Motion::commit`] makes the end the committed state.
+    pub(super) fn advance(
+        &mut self,
+        interval: Interval,
+        signals: &[v1::Signal],
+        outputs: v1::OutputSet,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Failure> {
+        self.signals.set(signals)?;
+        self.go_to(Base::Committed)?;
+        self.integrate(interval, Sequence::Own)?;
+        self.read(interval, outputs, values)?;
+        self.advanced.snapshot.clear();
+        self.subsystem.snapshot(&mut self.advanced.snapshot);
+        self.advanced.number = self.stands_at;
+        Ok(())
+    }
+
+    pub(super) fn commit(&mut self) {
+        std::mem::swap(&mut self.committed, &mut self.advanced);
+    }
+
+    /// Makes `kept` the committed state.
+    pub(super) fn restore(&mut self, kept: &Kept) -> Result<(), Failure> {
+        go_back(&mut *self.subsystem, &mut self.stands_at, kept)?;
+        self.committed.copy_from(kept);
+        Ok(())
+    }
+
+    /// Coupling outputs at the horizon under the present signals; the committed state stays.
+    pub(super) fn look_ahead(
+        &mut self,
+        base: Base,
+        horizon: Horizon,
+        sequence: Sequence,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Failure> {
+        self.go_to(base)?;
+        let interval = match horizon {
+            Horizon::Step(interval) => {
+                self.integrate(interval, sequence)?;
+                interval
+            }
+            Horizon::Now(t) => Interval {
+                start: t,
+                length: 0.0,
+            },
+        };
+        self.read(interval, v1::OutputSet::Coupling, values)
+    }
+
+    /// Looks ahead once for every perturbed signal, in place of the present signal of its input.
+    pub(super) fn look_ahead_perturbed(
+        &mut self,
+        base: Base,
+        horizon: Horizon,
+        perturbed: &[v1::Signal],
+        outputs: &mut Vec<v1::Outputs>,
+    ) -> Result<(), Failure> {
+        outputs.resize_with(perturbed.len(), v1::Outputs::default);
+        for (signal, outputs) in perturbed.iter().zip(outputs) {
+            let replaced = self.signals.replace(signal)?;
+            let done = self.look_ahead(base, horizon, Sequence::Repeated, &mut outputs.values);
+            self.signals.put_back(replaced);
+            done?;
+        }
+        Ok(())
+    }
+
+    /// Outputs of the committed state by their names.
+    pub(super) fn evaluate(
+        &mut self,
+        t: f64,
+        signals: &[v1::Signal],
+        names: &[String],
+    ) -> Result<Vec<f64>, Failure> {
+        if !t.is_finite() {
+            return Err(Failure::misuse(
+                "t",
+                format!("t = {t}: it must be a finite number"),
+            ));
+        }
+        let wanted = find(&self.outputs, names, "outputs")?;
+        self.signals.set(signals)?;
+        self.go_to(Base::Committed)?;
+        let mut values = vec![0.0; wanted.len()];
+        self.subsystem
+            .outputs(t, self.signals.values_at(0.0), &wanted, &mut values)
+            .map_err(|failure| tell(failure, t, 0.0))?;
+        Ok(values)
+    }
+
+    fn go_to(&mut self, base: Base) -> Result<(), Failure> {
+        let kept = match base {
+            Base::Committed => &self.committed,
+            Base::Advanced => &self.advanced,
+        };
+        go_back(&mut *self.subsystem, &mut self.stands_at, kept)
+    }
+
+    /// Steps under the present signals.
+    fn integrate(&mut self, interval: Interval, sequence: Sequence) -> Result<(), Failure> {
+        let step = (interval, self.stands_at);
+        let is_repeated = sequence == Sequence::Repeated && self.last_step == Some(step);
+        self.newest += 1;
+        self.stands_at = self.newest;
+        self.integrations += 1;
+        let inputs: &Inputs = self.signals.inputs();
+        let done = if is_repeated {
+            self.subsystem.perturbed_step(interval, inputs)
+        } else {
+            let done = self.subsystem.step(interval, inputs);
+            // What a failed step left behind cannot be repeated.
+            self.last_step = done.is_ok().then_some(step);
+            done
+        };
+        done.map_err(|failure| tell(failure, interval.start, interval.length))
+    }
+
+    /// Reads outputs at the end of `interval` under the present signals.
+    fn read(
+        &mut self,
+        interval: Interval,
+        set: v1::OutputSet,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Failure> {
+        let wanted = match set {
+            v1::OutputSet::Coupling => &self.coupling_outputs,
+            v1::OutputSet::All => &self.all_outputs,
+        };
+        values.clear();
+        values.resize(wanted.len(), 0.0);
+        let inputs = self.signals.values_at(interval.length);
+        self.subsystem
+            .outputs(interval.end(), inputs, wanted, values)
+            .map_err(|failure| tell(failure, interval.start, interval.length))
+    }
+}
+
+/// A number that no state has: where the solver stands while it cannot be said.
+const NOWHERE: StateNumber = StateNumber::MAX;
+
+fn go_back(
+    subsystem: &mut dyn Subsystem,
+    stands_at: &mut StateNumber,
+    kept: &Kept,
+) -> Result<(), Failure> {
+    if *stands_at == kept.number {
+        return Ok(());
+    }
+    *stands_at = NOWHERE;
+    subsystem
+        .restore(&kept.snapshot)
+        .map_err(|failure| Failure::fatal(failure.to_string()))?;
+    *stands_at = kept.number;
+    Ok(())
+}
+
+/// The interval of a request.
+pub(super) fn interval(start: f64, length: f64) -> Result<Interval, Failure> {
+    if start.is_finite() && length.is_finite() && length > 0.0 {
+        return Ok(Interval { start, length });
+    }
+    Err(Failure::misuse(
+        "step",
+        format!(
+            "a step from t = {start} s over {length} s: both must be finite, the length greater than 0"
+        ),
+    ))
+}
+
+fn tell(failure: StepFailure, t: f64, step: f64) -> Failure {
+    match &failure {
+        StepFailure::Recoverable { t, .. } => Failure::recoverable(*t, step, failure.to_string()),
+        StepFailure::Fatal { message } => Failure {
+            t: Some(t),
+            step: Some(step),
+            ..Failure::fatal(message.clone())
+        },
+    }
+}
+
+/// Counts what one call costs.
+pub(super) struct Meter {
+    started: Instant,
+    integrations: u64,
+    steps: u64,
+}
+
+impl Meter {
+    pub(super) fn start(motion: &Motion) -> Self {
+        Self {
+            started: Instant::now(),
+            integrations: motion.integrations,
+            steps: motion.subsystem.internal_steps(),
+        }
+    }
+
+    pub(super) fn stop(self, motion: &Motion) -> v1::Work {
+        v1::Work {
+            integrations: motion.integrations - self.integrations,
+            steps: motion.subsystem.internal_steps() - self.steps,
+            nanoseconds: u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX),
+        }
+    }
+}
