@@ -1,8 +1,8 @@
 //! The model `spatial-body`: a free rigid body in space, with a load at each of two points.
 //!
 //! Newton's law for the centre of mass in space, Euler's equations `J omega' + omega x J omega = M` in the principal
-//! axes, and a unit quaternion for the attitude, whose length is brought back to 1 at every macro point
-//! ([`crate::mechanics::spatial`] says why).
+//! axes, and a unit quaternion for the attitude: unlike three angles it has no attitude at which its rate becomes
+//! infinite. The integrator keeps its length to its own error; it is brought back to 1 at every macro point.
 //!
 //! The model lists no states: no output is the rotation vector that sets the attitude at the start.
 

@@ -4,9 +4,11 @@
 
 mod common;
 
-use common::{EXACT, Solver, build};
-use linchpin_models::oscillator::Oscillator;
-use linchpin_worker::Model;
+use std::collections::BTreeSet;
+
+use common::body::{Body, CASES, model};
+use common::{EXACT, RADAU5, Solver, build, build_model};
+use linchpin_proto::v1::MarkerKind;
 
 fn message(parameters: &[(&str, f64)], solver: Solver) -> (String, String) {
     let error = build(parameters, solver).err().unwrap();
@@ -49,7 +51,9 @@ fn what_is_missing_or_unknown_is_named() {
     );
     let (field, message) = message(&[("m", 1.0)], Solver("euler", &[]));
     assert!(
-        field == "solver.kind" && message.contains("euler") && message.contains("exact, radau5, rk4"),
+        field == "solver.kind"
+            && message.contains("euler")
+            && message.contains("exact, radau5, rk4"),
         "{message}"
     );
 }
@@ -77,49 +81,136 @@ fn options_of_solvers_are_checked() {
 }
 
 #[test]
-fn the_description_names_only_what_it_has() {
-    let model = Oscillator.describe();
-    let inputs: Vec<_> = model
-        .inputs
-        .iter()
-        .map(|input| input.name.as_str())
-        .collect();
-    let outputs: Vec<_> = model
-        .outputs
-        .iter()
-        .map(|output| output.name.as_str())
-        .collect();
-    let parameters: Vec<_> = model
-        .parameters
-        .iter()
-        .map(|parameter| parameter.name.as_str())
-        .collect();
-    let marker = &model.markers[0];
-    let spring = marker.spring.as_ref().unwrap();
-    for output in [
-        Some(&marker.position),
-        marker.velocity.as_ref(),
-        marker.acceleration.as_ref(),
+fn parameters_of_bodies_out_of_range_are_named() {
+    for (case, mistakes) in [
+        (
+            CASES[1],
+            [
+                ("m", 0.0),
+                ("inertia", 0.0),
+                ("length", -0.9),
+                ("spring", -1.0),
+                ("damping", -1e-3),
+                ("angle0", f64::NAN),
+            ]
+            .as_slice(),
+        ),
+        (
+            CASES[2],
+            &[
+                ("m", -1.0),
+                ("inertia", 0.0),
+                ("length", 0.0),
+                ("gravity", f64::INFINITY),
+                ("vx0", f64::NAN),
+            ],
+        ),
+        (
+            CASES[3],
+            &[
+                ("m", 0.0),
+                ("j1", 0.0),
+                ("j2", -0.1),
+                ("j2", 0.41),
+                ("j3", 0.47),
+                ("end_z", f64::NAN),
+                ("rx0", f64::INFINITY),
+            ],
+        ),
     ] {
-        assert!(outputs.contains(&output.unwrap().as_str()));
+        for &(wrong, value) in mistakes {
+            let altered = |&(name, own): &(&'static str, f64)| {
+                (name, if name == wrong { value } else { own })
+            };
+            let mut parameters: Vec<_> = case.parameters.iter().map(altered).collect();
+            if !parameters.iter().any(|(name, _)| *name == wrong) {
+                parameters.push((wrong, value));
+            }
+            let error = build_model(&*model(case.model), &parameters, RADAU5).err();
+            let error = error.unwrap_or_else(|| panic!("{} {wrong} = {value}", case.model));
+            assert_eq!(error.field(), format!("parameters.{wrong}"));
+            let message = error.to_string();
+            assert!(
+                message.contains(&format!("{value}")) && message.contains("must"),
+                "{message}"
+            );
+        }
     }
-    for input in [
-        &marker.load,
-        &spring.partner_position,
-        &spring.partner_velocity,
-    ] {
-        assert!(inputs.contains(&input.as_str()));
+}
+
+/// The moments of a flat body add up exactly, but not always in floating point.
+#[test]
+fn a_flat_body_is_allowed() {
+    let flat = [("m", 1.0), ("j1", 0.7), ("j2", 0.1), ("j3", 0.8)];
+    let [_, (_, j1), (_, j2), (_, j3)] = flat;
+    assert!(j1 + j2 < j3);
+    assert!(build_model(&*model("spatial-body"), &flat, RADAU5).is_ok());
+}
+
+#[test]
+fn descriptions_name_only_what_they_have() {
+    for model in linchpin_models::models() {
+        let model = model.describe();
+        let outputs: Vec<_> = model.outputs.iter().map(|own| &own.name).collect();
+        let inputs: Vec<_> = model.inputs.iter().map(|own| &own.name).collect();
+        let parameters: Vec<_> = model.parameters.iter().map(|own| &own.name).collect();
+        for names in [&outputs, &inputs, &parameters] {
+            let different: BTreeSet<_> = names.iter().collect();
+            assert_eq!(different.len(), names.len(), "{}", model.name);
+        }
+        for marker in &model.markers {
+            let motion = [&marker.position, &marker.velocity, &marker.acceleration];
+            assert!(
+                motion
+                    .into_iter()
+                    .flatten()
+                    .all(|name| outputs.contains(&name))
+            );
+            assert!(marker.load.iter().all(|name| inputs.contains(&name)));
+            let lengths = match marker.kind() {
+                MarkerKind::Scalar => [1, 1, 1, 1],
+                MarkerKind::Planar => [3, 3, 3, 3],
+                MarkerKind::Spatial => [7, 6, 6, 6],
+                MarkerKind::Unspecified => panic!("{} {}", model.name, marker.name),
+            };
+            let [position, velocity, acceleration] = motion.map(Vec::len);
+            assert_eq!(
+                [position, velocity, acceleration, marker.load.len()],
+                lengths
+            );
+            if let Some(spring) = &marker.spring {
+                assert!(inputs.contains(&&spring.partner_position));
+                assert!(inputs.contains(&&spring.partner_velocity));
+                assert!(parameters.contains(&&spring.stiffness));
+                assert!(parameters.contains(&&spring.damping));
+            }
+        }
+        for state in &model.states {
+            assert!(outputs.contains(&&state.output) && parameters.contains(&&state.initial));
+        }
+        for variable in model.inputs.iter().chain(&model.outputs) {
+            assert!(!variable.unit.is_empty() && !variable.description.is_empty());
+        }
     }
-    for parameter in [&spring.stiffness, &spring.damping] {
-        assert!(parameters.contains(&parameter.as_str()));
-    }
-    for state in &model.states {
-        assert!(
-            outputs.contains(&state.output.as_str())
-                && parameters.contains(&state.initial.as_str())
-        );
-    }
-    for description in model.inputs.iter().chain(&model.outputs) {
-        assert!(!description.unit.is_empty() && !description.description.is_empty());
+}
+
+/// A state is what its parameter sets it to.
+#[test]
+fn states_start_at_their_parameters() {
+    for case in CASES {
+        let mut body = Body::of(case, RADAU5);
+        for state in body.model.states.clone() {
+            let given = case
+                .parameters
+                .iter()
+                .find(|(name, _)| *name == state.initial);
+            let expected = given.map_or(0.0, |(_, value)| *value);
+            let error = (body.read_one(&state.output) - expected).abs();
+            assert!(
+                error < 1e-15 * expected.abs().max(1.0),
+                "{case:?} {}",
+                state.output
+            );
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! What holds for every solver of the oscillator, and the observed order of each.
+//! The oscillator: its acceleration, and the error and observed order of each solver.
 
 #![allow(clippy::unwrap_used)]
 
@@ -7,7 +7,7 @@ mod common;
 use common::{
     A, ALL, EXACT, RADAU5, RK4, Solver, V, X, force, interval, oscillator, snapshot, state,
 };
-use linchpin_worker::{Inputs, Snapshot, StepFailure, Subsystem};
+use linchpin_worker::{Inputs, StepFailure};
 use proptest::prelude::*;
 
 const OWN: [(&str, f64); 5] = [
@@ -17,88 +17,6 @@ const OWN: [(&str, f64); 5] = [
     ("x0", 0.02),
     ("v0", 100.0),
 ];
-
-fn bits(state: [f64; 2]) -> [u64; 2] {
-    state.map(f64::to_bits)
-}
-
-/// Macro steps under forces that jump from step to step, as a master's inputs do.
-fn run(subsystem: &mut Box<dyn Subsystem>, steps: std::ops::Range<u32>) {
-    let length = 1.3e-3;
-    for step in steps {
-        let level = 333.0 * (f64::from(step) * 0.7).cos();
-        let inputs = force(&[level, -2e3, 1e5], length);
-        subsystem
-            .step(interval(f64::from(step) * length, length), &inputs)
-            .unwrap();
-    }
-}
-
-#[test]
-fn a_restored_run_goes_on_bit_by_bit() {
-    for solver in ALL {
-        let mut subsystem = oscillator(&OWN, solver);
-        run(&mut subsystem, 0..7);
-        let kept = snapshot(&*subsystem);
-        run(&mut subsystem, 7..12);
-        let first = (bits(state(&mut subsystem)), snapshot(&*subsystem));
-
-        run(&mut subsystem, 30..33);
-        subsystem.restore(&kept).unwrap();
-        assert_eq!(snapshot(&*subsystem), kept, "{solver:?}");
-        run(&mut subsystem, 7..12);
-        assert_eq!(
-            (bits(state(&mut subsystem)), snapshot(&*subsystem)),
-            first,
-            "{solver:?}"
-        );
-
-        let mut elsewhere = oscillator(&OWN, solver);
-        elsewhere
-            .restore(&Snapshot::from_bytes(kept.bytes().to_vec()))
-            .unwrap();
-        run(&mut elsewhere, 7..12);
-        assert_eq!(
-            (bits(state(&mut elsewhere)), snapshot(&*elsewhere)),
-            first,
-            "{solver:?} elsewhere"
-        );
-    }
-}
-
-#[test]
-fn a_perturbed_step_without_perturbation_gives_the_same_bits() {
-    for solver in ALL {
-        let mut subsystem = oscillator(&OWN, solver);
-        run(&mut subsystem, 0..5);
-        let kept = snapshot(&*subsystem);
-        let (span, inputs) = (interval(6.5e-3, 0.021), force(&[333.0, 50.0], 0.021));
-        subsystem.step(span, &inputs).unwrap();
-        let expected = bits(state(&mut subsystem));
-        subsystem.restore(&kept).unwrap();
-        subsystem.perturbed_step(span, &inputs).unwrap();
-        assert_eq!(bits(state(&mut subsystem)), expected, "{solver:?}");
-    }
-}
-
-#[test]
-fn a_perturbed_step_over_another_interval_is_an_ordinary_step() {
-    for solver in ALL {
-        let mut subsystem = oscillator(&OWN, solver);
-        run(&mut subsystem, 0..5);
-        let kept = snapshot(&*subsystem);
-        let inputs = force(&[333.0], 0.011);
-        subsystem.step(interval(0.0, 0.013), &inputs).unwrap();
-        subsystem.restore(&kept).unwrap();
-        subsystem
-            .perturbed_step(interval(0.0, 0.011), &inputs)
-            .unwrap();
-        let perturbed = state(&mut subsystem);
-        subsystem.restore(&kept).unwrap();
-        subsystem.step(interval(0.0, 0.011), &inputs).unwrap();
-        assert_eq!(bits(perturbed), bits(state(&mut subsystem)), "{solver:?}");
-    }
-}
 
 #[test]
 fn the_acceleration_is_that_of_the_inputs_given() {
@@ -125,39 +43,6 @@ fn the_acceleration_is_that_of_the_inputs_given() {
             matches!(unknown, Err(StepFailure::Fatal { .. })),
             "{solver:?}"
         );
-    }
-}
-
-#[test]
-fn a_snapshot_of_another_length_is_refused_and_changes_nothing() {
-    for solver in ALL {
-        let mut subsystem = oscillator(&OWN, solver);
-        run(&mut subsystem, 0..3);
-        let before = snapshot(&*subsystem);
-        for wrong in [vec![], vec![0; 7], vec![0; 16], vec![0; 32]] {
-            let refused = subsystem.restore(&Snapshot::from_bytes(wrong));
-            assert!(
-                matches!(refused, Err(StepFailure::Fatal { .. })),
-                "{solver:?}"
-            );
-        }
-        assert_eq!(snapshot(&*subsystem), before);
-    }
-}
-
-#[test]
-fn a_step_that_overflows_fails_at_its_time_and_changes_nothing() {
-    for solver in ALL {
-        let mut subsystem = oscillator(&[("m", 1e-9)], solver);
-        let before = snapshot(&*subsystem);
-        let failure = subsystem
-            .step(interval(2.5, 0.7), &force(&[1.7e308], 0.7))
-            .unwrap_err();
-        let StepFailure::Recoverable { t, .. } = &failure else {
-            panic!("{solver:?}: {failure:?}")
-        };
-        assert!((2.5..=3.2).contains(t), "{solver:?}: {failure}");
-        assert_eq!(snapshot(&*subsystem), before, "{solver:?}");
     }
 }
 

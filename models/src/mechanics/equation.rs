@@ -66,3 +66,38 @@ impl<E: EquationOfMotion> Ode for Driven<'_, E> {
         true
     }
 }
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+
+    /// Asserts that the Jacobian of an equation is that of central differences of its rate.
+    pub fn assert_jacobian<E: EquationOfMotion>(
+        equation: &E,
+        state: &E::State,
+        inputs: &E::Inputs,
+    ) {
+        let n = E::STATE_NAMES.len();
+        assert_eq!(n, state.as_ref().len());
+        let mut jacobian = DMatrix::repeat(n, n, f64::NAN);
+        equation.jacobian(state, inputs, &mut jacobian);
+        for j in 0..n {
+            let rate_at = |change: f64| {
+                let mut moved = *state;
+                moved.as_mut()[j] += change;
+                equation.rate(&moved, inputs)
+            };
+            let increment = 1e-5;
+            let (low, high) = (rate_at(-increment), rate_at(increment));
+            for (i, (low, high)) in low.as_ref().iter().zip(high.as_ref()).enumerate() {
+                let difference = (high - low) / (2.0 * increment);
+                let own = jacobian[(i, j)];
+                assert!(
+                    (own - difference).abs() < 1e-8 * (1.0 + own.abs()),
+                    "row {i}, column {}: {own} instead of {difference}",
+                    E::STATE_NAMES[j]
+                );
+            }
+        }
+    }
+}

@@ -76,3 +76,23 @@ impl EquationOfMotion for Equation {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::equation::tests::assert_jacobian;
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_rate() {
+        let equation = Equation {
+            mass: 1.3,
+            stiffness: 70.0,
+            damping: 0.83,
+            partner: PartnerSpring {
+                stiffness: 20.0,
+                damping: 0.3,
+            },
+        };
+        assert_jacobian(&equation, &[0.7, -2.9], &[3.1, -1.7, 0.9]);
+    }
+}

@@ -97,3 +97,25 @@ impl EquationOfMotion for HingedLink {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::equation::tests::assert_jacobian;
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_rate() {
+        let link = HingedLink {
+            mass: 1.3,
+            inertia: 0.6,
+            centre: AxisPoint { along: 0.56 },
+            tip: AxisPoint { along: 0.9 },
+            hinge: [0.3, -0.2],
+            gravity: 9.7,
+            spring: 21.0,
+            damping: 0.83,
+            rest_angle: 0.3,
+        };
+        assert_jacobian(&link, &[1.1, -4.0], &[3.1, -1.7, 0.9]);
+    }
+}

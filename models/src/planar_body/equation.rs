@@ -106,3 +106,21 @@ impl EquationOfMotion for FreeLink {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::equation::tests::assert_jacobian;
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_rate() {
+        let link = FreeLink {
+            mass: 1.3,
+            inertia: 0.17,
+            markers: [-0.45, 0.45].map(|along| AxisPoint { along }),
+            gravity: 9.7,
+        };
+        let state = [0.3, -0.7, 1.1, 2.0, 0.9, -4.0];
+        assert_jacobian(&link, &state, &[3.1, -1.7, 0.9, -2.0, 0.6, 4.4]);
+    }
+}

@@ -166,3 +166,32 @@ impl EquationOfMotion for FreeBody {
         state[3..7].copy_from_slice(real_first(&attitude).as_slice());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mechanics::equation::tests::assert_jacobian;
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_rate() {
+        let body = FreeBody::new(BodyParameters {
+            mass: 1.3,
+            inertia: Vector3::new(0.17, 0.29, 0.23),
+            gravity: 9.7,
+            markers: [
+                BodyPoint(Vector3::new(-0.4, 0.1, 0.23)),
+                BodyPoint(Vector3::new(0.5, -0.3, 0.07)),
+            ],
+        });
+        let state = state(&BodyMotion {
+            position: Vector3::new(0.3, -0.7, 0.2),
+            attitude: Quaternion::new(0.3, -0.8, 0.4, 0.33),
+            velocity: Vector3::new(2.0, 0.9, -1.2),
+            omega: Vector3::new(2.0, -3.0, 1.5),
+        });
+        let loads = [
+            3.1, -1.7, 0.9, -2.0, 0.6, 4.4, 1.9, 2.7, -0.3, -1.1, 5.2, 0.8,
+        ];
+        assert_jacobian(&body, &state, &loads);
+    }
+}

@@ -1,4 +1,4 @@
-//! An oscillator as a master drives it, for all tests.
+//! Models as a master drives them, for all tests.
 
 #![allow(dead_code, reason = "every test program uses a part of this")]
 
@@ -6,6 +6,8 @@ use linchpin_models::oscillator::Oscillator;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1;
 use linchpin_worker::{Inputs, Interval, Model, Setup, Snapshot, Subsystem, setup::SetupError};
+
+pub mod body;
 
 pub const X: usize = 0;
 pub const V: usize = 1;
@@ -27,6 +29,14 @@ pub fn number(value: f64) -> v1::Value {
 }
 
 pub fn build(parameters: &[(&str, f64)], solver: Solver) -> Result<Box<dyn Subsystem>, SetupError> {
+    build_model(&Oscillator, parameters, solver)
+}
+
+pub fn build_model(
+    model: &dyn Model,
+    parameters: &[(&str, f64)],
+    solver: Solver,
+) -> Result<Box<dyn Subsystem>, SetupError> {
     let options = solver
         .1
         .iter()
@@ -35,8 +45,8 @@ pub fn build(parameters: &[(&str, f64)], solver: Solver) -> Result<Box<dyn Subsy
         kind: solver.0.to_owned(),
         options: options.collect(),
     };
-    let setup = Setup::new(&Oscillator.describe(), parameters, Some(solver), 0.0)?;
-    Oscillator.initialize(&setup)
+    let setup = Setup::new(&model.describe(), parameters, Some(solver), 0.0)?;
+    model.initialize(&setup)
 }
 
 pub fn oscillator(parameters: &[(&str, f64)], solver: Solver) -> Box<dyn Subsystem> {
@@ -76,4 +86,12 @@ pub fn force(coefficients: &[f64], length: f64) -> Inputs {
 
 pub fn interval(start: f64, length: f64) -> Interval {
     Interval { start, length }
+}
+
+/// Arithmetic-geometric mean.
+pub fn agm(mut a: f64, mut b: f64) -> f64 {
+    for _ in 0..60 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    a
 }

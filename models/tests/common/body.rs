@@ -1,0 +1,228 @@
+//! Any model, with its variables by name.
+
+use linchpin_proto::polynomial::Polynomial;
+use linchpin_proto::v1;
+use linchpin_worker::{Inputs, Model, Subsystem};
+
+use super::{Solver, build_model, interval};
+
+/// Far more accurate than what is checked.
+pub const TIGHT: Solver = Solver("radau5", &[("rtol", 1e-12), ("atol", 1e-12)]);
+
+/// A model with parameters that are no round numbers, and a size of its loads.
+#[derive(Debug, Clone, Copy)]
+pub struct Case {
+    pub model: &'static str,
+    pub parameters: &'static [(&'static str, f64)],
+    pub load: f64,
+}
+
+/// One case of every model.
+pub const CASES: [Case; 4] = [
+    Case {
+        model: "oscillator",
+        parameters: &[
+            ("m", 1.3),
+            ("c", 1e3),
+            ("d", 10.0),
+            ("x0", 0.02),
+            ("v0", 100.0),
+        ],
+        load: 333.0,
+    },
+    Case {
+        model: "pendulum",
+        parameters: &[
+            ("m", 1.3),
+            ("inertia", 0.17),
+            ("length", 0.9),
+            ("offset", 0.11),
+            ("hinge_x", -0.4),
+            ("hinge_y", 0.6),
+            ("gravity", 9.7),
+            ("spring", 21.0),
+            ("rest_angle", 0.3),
+            ("angle0", 1.1),
+            ("rate0", -4.0),
+        ],
+        load: 7.0,
+    },
+    Case {
+        model: "planar-body",
+        parameters: &[
+            ("m", 1.3),
+            ("inertia", 0.17),
+            ("length", 0.9),
+            ("gravity", 9.7),
+            ("x0", 0.3),
+            ("y0", -0.7),
+            ("angle0", 1.1),
+            ("vx0", 2.0),
+            ("vy0", 0.9),
+            ("rate0", -4.0),
+        ],
+        load: 7.0,
+    },
+    Case {
+        model: "spatial-body",
+        parameters: &[
+            ("m", 1.3),
+            ("j1", 0.17),
+            ("j2", 0.29),
+            ("j3", 0.23),
+            ("gravity", 9.7),
+            ("start_x", -0.4),
+            ("start_y", 0.1),
+            ("start_z", 0.23),
+            ("end_x", 0.5),
+            ("end_y", -0.3),
+            ("end_z", 0.07),
+            ("x0", 0.3),
+            ("y0", -0.7),
+            ("z0", 0.2),
+            ("rx0", 0.8),
+            ("ry0", -1.9),
+            ("rz0", 0.4),
+            ("vx0", 2.0),
+            ("vy0", 0.9),
+            ("vz0", -1.2),
+            ("omega1_0", 2.0),
+            ("omega2_0", -3.0),
+            ("omega3_0", 1.5),
+        ],
+        load: 7.0,
+    },
+];
+
+/// All built-in models by name.
+pub fn model(name: &str) -> Box<dyn Model> {
+    let mut models = linchpin_models::models().into_iter();
+    models.find(|model| model.describe().name == name).unwrap()
+}
+
+/// One solver of a model with its options.
+pub fn solver(kind: &v1::SolverKind) -> Solver {
+    match kind.name.as_str() {
+        "exact" => Solver("exact", &[]),
+        "radau5" => Solver("radau5", &[]),
+        "rk4" => Solver("rk4", &[("step", 7e-4)]),
+        other => panic!("the tests have no options for the solver {other}"),
+    }
+}
+
+/// A subsystem in motion.
+pub struct Body {
+    pub model: v1::Model,
+    pub run: Box<dyn Subsystem>,
+    pub t: f64,
+    inputs: Inputs,
+}
+
+impl Body {
+    pub fn new(name: &str, parameters: &[(&str, f64)], solver: Solver) -> Self {
+        let model = model(name);
+        let run = build_model(&*model, parameters, solver).unwrap();
+        let model = model.describe();
+        let inputs = Inputs::constant(&vec![0.0; model.inputs.len()]);
+        Self {
+            model,
+            run,
+            t: 0.0,
+            inputs,
+        }
+    }
+
+    pub fn of(case: Case, solver: Solver) -> Self {
+        Self::new(case.model, case.parameters, solver)
+    }
+
+    /// The case with other values of some parameters.
+    pub fn altered(case: Case, parameters: &[(&str, f64)], solver: Solver) -> Self {
+        let is_altered = |name: &str| parameters.iter().any(|(other, _)| *other == name);
+        let own = case.parameters.iter().copied();
+        let mut all: Vec<_> = own.filter(|(name, _)| !is_altered(name)).collect();
+        all.extend(parameters);
+        Self::new(case.model, &all, solver)
+    }
+
+    /// A constant input.
+    pub fn drive(&mut self, input: &str, value: f64) {
+        let place = self.model.inputs.iter().position(|own| own.name == input);
+        self.inputs
+            .replace(place.unwrap(), Polynomial::constant(value));
+    }
+
+    /// Constant inputs of different sizes, all of them.
+    pub fn drive_all(&mut self, size: f64) {
+        for input in 0..self.model.inputs.len() {
+            let value = size * (1.0 + 2.3 * input as f64).sin();
+            self.inputs.replace(input, Polynomial::constant(value));
+        }
+    }
+
+    pub fn input(&self, name: &str) -> f64 {
+        let place = self.model.inputs.iter().position(|own| own.name == name);
+        self.inputs.value(place.unwrap(), 0.0)
+    }
+
+    pub fn advance(&mut self, length: f64) {
+        self.run
+            .step(interval(self.t, length), &self.inputs)
+            .unwrap();
+        self.t += length;
+    }
+
+    pub fn read(&mut self, names: &[impl AsRef<str>]) -> Vec<f64> {
+        let place = |name: &str| self.model.outputs.iter().position(|own| own.name == name);
+        let wanted: Vec<_> = names
+            .iter()
+            .map(|name| place(name.as_ref()).unwrap())
+            .collect();
+        let mut inputs = vec![0.0; self.model.inputs.len()];
+        self.inputs.values_at(0.0, &mut inputs);
+        let mut values = vec![0.0; wanted.len()];
+        self.run
+            .outputs(self.t, &inputs, &wanted, &mut values)
+            .unwrap();
+        values
+    }
+
+    pub fn read_all<const N: usize>(&mut self, names: [&str; N]) -> [f64; N] {
+        self.read(&names).try_into().unwrap()
+    }
+
+    pub fn read_one(&mut self, name: &str) -> f64 {
+        self.read(&[name])[0]
+    }
+
+    /// Values and their rates of change at `t + 2 step`, by differences of fourth order along the motion, which is
+    /// then at `t + 4 step`. The values come last.
+    pub fn rates(&mut self, step: f64, read: impl Fn(&mut Self) -> Vec<f64>) -> Rates {
+        let mut points = vec![read(self)];
+        for _ in 0..4 {
+            self.advance(step);
+            points.push(read(self));
+        }
+        let rate = |i: usize| {
+            let [a, b, _, d, e] = [0, 1, 2, 3, 4].map(|point: usize| points[point][i]);
+            (a - 8.0 * b + 8.0 * d - e) / (12.0 * step)
+        };
+        Rates {
+            rates: (0..points[2].len()).map(rate).collect(),
+            values: points.swap_remove(2),
+        }
+    }
+}
+
+/// Values at one time and how fast they change.
+pub struct Rates {
+    pub values: Vec<f64>,
+    pub rates: Vec<f64>,
+}
+
+/// Largest difference of two lists.
+pub fn difference(a: &[f64], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    differences.fold(0.0, f64::max)
+}
