@@ -48,6 +48,23 @@ fn the_double_pendulum_of_the_paper_starts_with_its_hinge_force() {
     );
 }
 
+/// A coupled run of another program (golden run D03: weighted multipliers, degree 1, H = 1e-3, whose angles are
+/// 4e-10 wrong).
+#[test]
+fn a_coupled_run_of_the_double_pendulum_is_near() {
+    let motions = DoublePendulum::schweizer_lu()
+        .motions(&[0.04, 0.06])
+        .unwrap();
+    let golden = [
+        [7.81549340035093451e-1, -7.93704360840102993e-1],
+        [7.78505888020757563e-1, -8.04046168549444234e-1],
+    ];
+    for (motion, golden) in motions.iter().zip(golden) {
+        let error = difference(&motion.angles, &golden);
+        assert!(error < 2e-9, "{error:e} at {}", motion.t);
+    }
+}
+
 #[test]
 fn without_a_damper_the_energy_stays() {
     let free = GroundHinge {
