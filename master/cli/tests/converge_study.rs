@@ -1,6 +1,7 @@
 //! The convergence study: orders, the two references, and runs that diverge.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+use std::path::Path;
 
 use linchpin::study::StudyError;
 use linchpin::study::converge::{
