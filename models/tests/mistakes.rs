@@ -49,7 +49,9 @@ fn what_is_missing_or_unknown_is_named() {
     );
     let (field, message) = message(&[("m", 1.0)], Solver("euler", &[]));
     assert!(
-        field == "solver.kind" && message.contains("euler") && message.contains("exact, radau5, rk4"),
+        field == "solver.kind"
+            && message.contains("euler")
+            && message.contains("exact, radau5, rk4"),
         "{message}"
     );
 }
