@@ -63,11 +63,29 @@ fn allocations_per_100_steps(overrides: &[&str]) -> usize {
 fn a_macro_step_allocates_nothing() {
     for method in [
         &["coupling.degree=0"][..],
-        &["coupling.method=baumgarte", "coupling.index=1", "coupling.beta=2H", "coupling.gamma=H^2", "coupling.degree=3"],
-        &["coupling.method=weighted", "coupling.index=1", "coupling.degree=2"],
+        &[
+            "coupling.method=baumgarte",
+            "coupling.index=1",
+            "coupling.beta=2H",
+            "coupling.gamma=H^2",
+            "coupling.degree=3",
+        ],
+        &[
+            "coupling.method=weighted",
+            "coupling.index=1",
+            "coupling.degree=2",
+        ],
         &["coupling.method=explicit", "coupling.mu=1e-2"],
-        &["coupling.method=jacobi", "coupling.stiffness=1e5", "coupling.damping=10"],
-        &["coupling.method=gauss-seidel", "coupling.stiffness=1e5", "coupling.damping=10"],
+        &[
+            "coupling.method=jacobi",
+            "coupling.stiffness=1e5",
+            "coupling.damping=10",
+        ],
+        &[
+            "coupling.method=gauss-seidel",
+            "coupling.stiffness=1e5",
+            "coupling.damping=10",
+        ],
     ] {
         assert_eq!(allocations_per_100_steps(method), 0, "{method:?}");
     }

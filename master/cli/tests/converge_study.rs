@@ -1,6 +1,7 @@
 //! The convergence study: orders, the two references, and runs that diverge.
 #![allow(missing_docs, clippy::unwrap_used)]
 
+use std::path::Path;
 
 use linchpin::study::StudyError;
 use linchpin::study::converge::{
@@ -116,4 +117,21 @@ fn a_scene_without_closed_form_says_so() {
         matches!(refused, StudyError::NoClosedForm { .. }),
         "{refused}"
     );
+}
+
+/// Every figure of docs/studies.md has a scene that the command given there can run.
+#[test]
+fn the_scenes_of_the_figures_are_sound() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/s1");
+    let load = |figure: &str| scene::load(&folder.join(format!("fig{figure}.toml")), &[]).unwrap();
+    for figure in ["05", "10"] {
+        assert_eq!(load(figure).cases.len(), 4);
+    }
+    for figure in ["06a", "06b", "06c", "11", "13"] {
+        assert_eq!(load(figure).converge.unwrap().macro_steps.len(), 7);
+    }
+    for figure in ["07", "08", "09", "12", "14"] {
+        let map = load(figure).stability.unwrap();
+        assert_eq!((map.x.values.len(), map.y.values.len()), (22, 19));
+    }
 }

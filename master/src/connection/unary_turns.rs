@@ -40,7 +40,13 @@ impl<C: Contract> UnaryTurns<C> {
     ) -> Result<(), CallError> {
         self.go_back(place, instance)?;
         let (t, length) = (advance.t, advance.step);
-        let answer = self.step_over(place, instance, (t, length), &advance.signals, OutputSet::All)?;
+        let answer = self.step_over(
+            place,
+            instance,
+            (t, length),
+            &advance.signals,
+            OutputSet::All,
+        )?;
         add(&mut reply.work, answer.work);
         reply.advanced = answer.outputs;
         self.commit(place, instance)

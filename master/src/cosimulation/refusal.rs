@@ -61,7 +61,10 @@ fn nearest_field(field: &str, kind: Option<&str>, model: &v1::Model) -> Option<S
             model.solvers.iter().map(|s| s.name.as_str()).collect(),
         ),
         ("solver", name) => {
-            let solver = model.solvers.iter().find(|s| Some(s.name.as_str()) == kind)?;
+            let solver = model
+                .solvers
+                .iter()
+                .find(|s| Some(s.name.as_str()) == kind)?;
             (name, names(&solver.options))
         }
         _ => return None,

@@ -60,7 +60,7 @@ impl SemiImplicit {
 
     /// Looks ahead over the first macro step.
     pub fn begin(&mut self, parts: &mut Parts, first: MacroStep) -> Result<(), RunError> {
-        self.request_prediction(parts, first);
+        self.request_prediction(parts, first)?;
         exchange(&mut parts.subsystems, first)
     }
 
@@ -77,7 +77,7 @@ impl SemiImplicit {
         self.request_advance(parts, step);
         self.history.push(step.length, &self.corrected);
         match following {
-            Some(following) => self.request_prediction(parts, following),
+            Some(following) => self.request_prediction(parts, following)?,
             None => parts.forgo_prediction(),
         }
         exchange(&mut parts.subsystems, step)?;
@@ -110,10 +110,11 @@ impl SemiImplicit {
     }
 
     /// S1 eqs. (56), (59): the extrapolation, and for every input the interpolation through its raised end value.
-    fn request_prediction(&mut self, parts: &mut Parts, step: MacroStep) {
+    fn request_prediction(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
         for (row, predicted) in self.predicted.iter_mut().enumerate() {
             *predicted = self.history.extrapolated_value(row, step.length);
         }
+        check_finite(&self.predicted, parts, step)?;
         parts.prepare_prediction(step.start, step.length);
         for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
             let subsystem = &mut parts.subsystems[input.subsystem];
@@ -125,6 +126,7 @@ impl SemiImplicit {
             self.history
                 .interpolate(&input.combination, step.length, end, raised);
         }
+        Ok(())
     }
 
     /// Compares the position conditions at the corrected outputs with what their linearisation promised.

@@ -143,7 +143,8 @@ impl System {
                 .zip(&self.residuals[level as usize]);
             rows.for_each(|(sum, g)| *sum += weight * g);
             let jacobian = &self.jacobians[level as usize];
-            zip!(&mut self.combined_jacobian, jacobian).for_each(|unzip!(sum, g)| *sum += weight * *g);
+            zip!(&mut self.combined_jacobian, jacobian)
+                .for_each(|unzip!(sum, g)| *sum += weight * *g);
         }
     }
 

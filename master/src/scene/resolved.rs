@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use linchpin_proto::v1;
+use serde::Serialize;
 
 use super::overrides::Override;
 
@@ -32,7 +33,10 @@ impl Coupling {
 }
 
 /// What is demanded of the joints at the macro points, and how the multipliers follow from it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+///
+/// Serialises with its name in a scene under `name`, and its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(tag = "name", rename_all = "kebab-case")]
 pub enum Method {
     /// Schweizer & Lu, method 1: g + beta g' + gamma g'' = 0.
     Baumgarte {
@@ -74,7 +78,10 @@ pub enum Method {
 }
 
 /// Index of the coupled system: which derivatives of the constraint are demanded.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+///
+/// Serialises as its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(into = "u8")]
 pub enum Index {
     /// Position, velocity and acceleration: both parameters are greater than 0.
     One,
@@ -82,6 +89,12 @@ pub enum Index {
     Two,
     /// Position only: both parameters are 0.
     Three,
+}
+
+impl From<Index> for u8 {
+    fn from(index: Index) -> Self {
+        index.number()
+    }
 }
 
 impl Index {

@@ -11,7 +11,7 @@ use std::fmt;
 
 use super::Scene;
 use super::place::Place;
-use super::resolved::{Index, Method};
+use super::resolved::{Coupling, Index, Method};
 
 /// A scene that is sound but known to be unstable.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,14 +72,28 @@ const ROUNDING: f64 = 1e-12;
 
 /// The known instabilities of a scene; empty if none is known.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    let coupling = &scene.coupling;
-    let Some(rule) = coupling.degree.checked_sub(1).and_then(|i| RULES.get(i)) else {
-        return Vec::new();
-    };
     if scene.joints.is_empty() {
         return Vec::new();
     }
-    let warning = match coupling.method {
+    let coupling = &scene.coupling;
+    let warning = match (coupling.method, coupling.degree.checked_sub(1)) {
+        (Method::Explicit { mu }, _) => below_limit_of_mu(coupling.macro_step, mu),
+        (Method::Jacobi { .. } | Method::GaussSeidel { .. }, _) | (_, None) => None,
+        (method, Some(above_constant)) => RULES
+            .get(above_constant)
+            .and_then(|rule| below_limit(coupling, method, rule)),
+    };
+    warning
+        .into_iter()
+        .map(|warning| Warning {
+            place: scene.place(warning.key),
+            ..warning
+        })
+        .collect()
+}
+
+fn below_limit(coupling: &Coupling, method: Method, rule: &Rule) -> Option<Warning> {
+    match method {
         Method::Baumgarte {
             index: Index::One,
             beta,
@@ -94,14 +108,19 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
             Some(high_index(coupling.degree, index))
         }
         Method::Explicit { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => None,
-    };
-    warning
-        .into_iter()
-        .map(|warning| Warning {
-            place: scene.place(warning.key),
-            ..warning
-        })
-        .collect()
+    }
+}
+
+/// A free relative coordinate under (mu d/dt + 1)^2 g = 0: s'' is held over the step, and for mu < H the map of
+/// (s, H s') has an eigenvalue beyond the unit circle.
+fn below_limit_of_mu(macro_step: f64, mu: f64) -> Option<Warning> {
+    (mu < macro_step * (1.0 - ROUNDING)).then(|| Warning {
+        key: "coupling.mu",
+        place: None,
+        what: format!("the explicit method is unstable with mu = {mu:?}"),
+        rule: format!("mu must be at least H = {macro_step:?}"),
+        remedy: "try mu = \"10H\", or a smaller macro step".to_owned(),
+    })
 }
 
 fn below_limit_of_gamma(

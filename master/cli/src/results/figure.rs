@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use linchpin_master::scene::{Method, Scene};
+use linchpin_master::scene::Scene;
 
 use super::{RunReport, Trace};
 use crate::commands::CommandError;
@@ -25,10 +25,16 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
             let chosen = report.traces.iter().filter(|trace| Kind::of(trace) == kind);
             // Several cases: one curve each, so that the picture stays readable.
             let most = if is_single { usize::MAX } else { 1 };
-            series.extend(chosen.take(most).map(|trace| TimeSeries {
-                name: case.map_or_else(|| trace.name.clone(), |case| case.name.clone()),
-                t: trace.t.iter().map(|t| (t - delay).max(scene.t_start)).collect(),
-                y: trace.y.clone(),
+            series.extend(chosen.take(most).map(|trace| {
+                TimeSeries {
+                    name: case.map_or_else(|| trace.name.clone(), |case| case.name.clone()),
+                    t: trace
+                        .t
+                        .iter()
+                        .map(|t| (t - delay).max(scene.t_start))
+                        .collect(),
+                    y: trace.y.clone(),
+                }
             }));
         }
         let y_scale = Scale::Linear;
@@ -67,11 +73,7 @@ impl Kind {
 
 /// With `k = 0` a corrected multiplier is the mean over its step, so it belongs to the middle of the step.
 fn middle_of_step(scene: &Scene, kind: Kind) -> f64 {
-    let is_held = matches!(
-        scene.coupling.method,
-        Method::Baumgarte { .. } | Method::Weighted { .. }
-    );
-    if kind == Kind::Multiplier && is_held && scene.coupling.degree == 0 {
+    if kind == Kind::Multiplier && scene.coupling.multipliers_are_step_means() {
         scene.coupling.macro_step / 2.0
     } else {
         0.0

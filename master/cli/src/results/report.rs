@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use linchpin_master::results::Statistics;
-use linchpin_master::scene::Scene;
+use linchpin_master::scene::{Method, Scene};
 use serde::Serialize;
 
 use super::Trace;
@@ -37,7 +37,7 @@ struct Json<'a> {
     t_end: f64,
     macro_step: f64,
     degree: usize,
-    method: String,
+    method: Method,
     wall_time: f64,
     statistics: &'a Statistics,
     errors: Vec<ColumnErrorJson<'a>>,
@@ -75,7 +75,7 @@ impl RunReport {
             t_end: scene.t_end,
             macro_step: scene.coupling.macro_step,
             degree: scene.coupling.degree,
-            method: format!("{:?}", scene.coupling.method),
+            method: scene.coupling.method,
             wall_time: self.wall_time,
             statistics: &self.statistics,
             errors: self

@@ -183,3 +183,12 @@ fn index_2_and_3_grow_at_every_higher_degree() {
         assert!(size_after(300, degree, 20.0, 0.0) > 1e1);
     }
 }
+
+#[test]
+fn the_explicit_method_needs_a_time_constant_of_at_least_one_macro_step() {
+    assert_eq!(warned_keys("method = 'explicit'\nmu = '1H'"), [""; 0]);
+    assert_eq!(
+        warned_keys("method = 'explicit'\nmu = '0.99H'"),
+        ["coupling.mu"]
+    );
+}
