@@ -25,7 +25,7 @@ MODEL = pb.Model(
     outputs=[pb.Variable(name=name, unit=unit) for name, unit in (("x", "m"), ("v", "m/s"), ("a", "m/s^2"))],
     parameters=[pb.Parameter(name=name, unit=unit) for name, unit in (("m", "kg"), ("c", "N/m"), ("d", "N s/m"))]
     + [pb.Parameter(name=name, unit=unit, default=0.0) for name, unit in (("x0", "m"), ("v0", "m/s"))],
-    markers=[pb.Marker(name="mass", kind="MARKER_KIND_SCALAR", position="x", velocity="v", acceleration="a", load="f")],
+    markers=[pb.Marker(name="mass", kind="MARKER_KIND_SCALAR", position=["x"], velocity=["v"], acceleration=["a"], load=["f"])],
     states=[pb.StateVariable(output="x", initial="x0"), pb.StateVariable(output="v", initial="v0")],
     capabilities=pb.Capabilities(repeats_step_sequence=True, max_input_degree=7),
 )

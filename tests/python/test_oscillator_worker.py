@@ -101,7 +101,7 @@ class Contract(unittest.TestCase):
         (marker,) = model.markers
         self.assertEqual(
             (marker.name, marker.kind, marker.position, marker.velocity, marker.acceleration, marker.load),
-            ("mass", pb.MARKER_KIND_SCALAR, "x", "v", "a", "f"),
+            ("mass", pb.MARKER_KIND_SCALAR, ["x"], ["v"], ["a"], ["f"]),
         )
         self.assertFalse(model.capabilities.exchange)
         self.assertEqual([(one.output, one.initial) for one in model.states], [("x", "x0"), ("v", "v0")])

@@ -61,6 +61,12 @@ impl Study {
     }
 }
 
+/// Least-squares slope of log(error) over log(H).
+pub fn slope_of(points: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let points: Vec<_> = points.map(|(h, error)| (h.ln(), error.ln())).collect();
+    slope(&points)
+}
+
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

@@ -6,6 +6,7 @@
 
 pub mod convergence;
 pub mod errors;
+pub mod golden;
 pub mod masses;
 pub mod process;
 pub mod runs;

@@ -2,11 +2,9 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use std::collections::HashMap;
-use std::path::Path;
-
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
+use linchpin_tests::golden::{Record, number, records};
 use linchpin_tests::runs::run;
 use linchpin_tests::scenes::{RADAU5, oscillator_with};
 
@@ -140,27 +138,4 @@ fn index(case: &Record) -> usize {
 
 fn is_index_3(case: &Record) -> bool {
     case["method"] != "explicit" && index(case) == 3
-}
-
-/// One line of a CSV file by column.
-type Record = HashMap<String, String>;
-
-fn records(file: &str) -> Vec<Record> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("golden/s1")
-        .join(file);
-    let mut reader = csv::Reader::from_path(path).unwrap();
-    let names = reader.headers().unwrap().clone();
-    let record = |line: csv::StringRecord| {
-        names
-            .iter()
-            .zip(&line)
-            .map(|(name, value)| (name.to_owned(), value.to_owned()))
-            .collect()
-    };
-    reader.records().map(|line| record(line.unwrap())).collect()
-}
-
-fn number(record: &Record, name: &str) -> f64 {
-    record[name].parse().unwrap()
 }

@@ -165,7 +165,10 @@ fn given_multipliers(scene: &Scene, layout: &Layout) -> Result<Option<Vec<f64>>,
         };
         let expected = bound.law.rows().len();
         if multiplier.len() != expected {
-            let message = format!("{} multipliers, this joint has {expected}", multiplier.len());
+            let message = format!(
+                "{} multipliers, this joint has {expected}",
+                multiplier.len()
+            );
             let key = format!("joint.{}.multiplier", joint.name);
             return Err(scene.error(&key, message, None).into());
         }

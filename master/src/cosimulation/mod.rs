@@ -11,6 +11,7 @@ use std::time::Instant;
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
 pub use subsystem::Subsystem;
+pub use tie::multiplier_columns;
 
 use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::Layout;

@@ -4,7 +4,7 @@ use linchpin_proto::v1::{self, MarkerKind};
 use linchpin_proto::version;
 
 use super::{Subsystem, at_start};
-use crate::coupling::layout::{Lack, MarkedJoint, MarkerLacks};
+use crate::coupling::layout::{Lack, MarkedJoint, MarkerLacks, column_name};
 use crate::error::RunError;
 use crate::joint::{AtPoint, Joint as Law, Level, RigidLink};
 use crate::scene::nearest::nearest;
@@ -78,6 +78,19 @@ pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoin
     scene.joints.iter().map(mark_one).collect()
 }
 
+/// Names of the result columns of all multipliers of a scene whose subsystems have these models.
+///
+/// # Errors
+/// A joint names a marker that does not exist, or one that it cannot hold.
+pub fn multiplier_columns(scene: &Scene, models: &[v1::Model]) -> Result<Vec<String>, RunError> {
+    let joints = mark(scene, models)?;
+    let names = joints.iter().flat_map(|joint| {
+        let parts = (joint.law)().rows().iter();
+        parts.map(|part| column_name(&joint.name, "lambda", part))
+    });
+    Ok(names.collect())
+}
+
 /// The law of a joint between two markers, which must be of one kind that the joint can hold.
 fn law_between(
     scene: &Scene,
@@ -97,7 +110,9 @@ fn law_between(
         _ => {
             let message = format!("this joint cannot hold {} markers", kind_name(a));
             let help = "scalar markers take a rigid-link; planar and spatial ones an atpoint joint";
-            Err(scene.error(&format!("{key}.kind"), message, Some(help.into())).into())
+            Err(scene
+                .error(&format!("{key}.kind"), message, Some(help.into()))
+                .into())
         }
     }
 }
@@ -168,7 +183,10 @@ pub(super) fn refuse_marker(scene: &Scene, lacks: MarkerLacks) -> RunError {
             "choose coupling.index = 3",
         ),
         Lack::Output(Level::Position) => ("a position", "the worker must describe one"),
-        Lack::Load => ("an input for the joint's load", "the worker must describe one"),
+        Lack::Load => (
+            "an input for the joint's load",
+            "the worker must describe one",
+        ),
         Lack::Spring => (
             "a spring-damper to a partner, which jacobi and gauss-seidel need at end a",
             "exchange the ends of the joint, or choose a rigid coupling method",

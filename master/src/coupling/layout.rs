@@ -127,7 +127,11 @@ impl Layout {
             let joint = layout.rows[row].joint;
             let (a, marker) = &joints[joint].ends[0];
             let spring = marker.spring.as_ref();
-            let spring = spring.ok_or(MarkerLacks { joint, end: 0, what: Lack::Spring })?;
+            let spring = spring.ok_or(MarkerLacks {
+                joint,
+                end: 0,
+                what: Lack::Spring,
+            })?;
             layout.drive(*a, &spring.partner_position, (rows + row, 1.0));
             layout.drive(*a, &spring.partner_velocity, (2 * rows + row, 1.0));
             layout.load_end(&joints[joint], row, End::B)?;
@@ -149,8 +153,15 @@ impl Layout {
             let mut bind = |end| layout.bind_end(number, end, joint, law.reads());
             let ends = [bind(End::A)?, bind(End::B)?];
             let conditions = 0..law.rows().len();
-            layout.rows.extend(conditions.map(|condition| Row { joint: number, condition }));
-            layout.joints.push(BoundJoint { name: joint.name.clone(), law, ends });
+            layout.rows.extend(conditions.map(|condition| Row {
+                joint: number,
+                condition,
+            }));
+            layout.joints.push(BoundJoint {
+                name: joint.name.clone(),
+                law,
+                ends,
+            });
         }
         Ok(layout)
     }
@@ -167,7 +178,11 @@ impl Layout {
         for &level in self.level.up_to() {
             let names = outputs_of(marker, level);
             let what = Lack::Output(level);
-            let lack = MarkerLacks { joint: number, end: end as usize, what };
+            let lack = MarkerLacks {
+                joint: number,
+                end: end as usize,
+                what,
+            };
             let mut places = Vec::with_capacity(reads.len());
             for &component in reads {
                 let name = names.get(component).ok_or(lack)?;
@@ -175,12 +190,18 @@ impl Layout {
             }
             outputs.push(places);
         }
-        Ok(BoundEnd { subsystem: *subsystem, outputs })
+        Ok(BoundEnd {
+            subsystem: *subsystem,
+            outputs,
+        })
     }
 
     /// Lets multiplier number `row` load the marker at one end.
     fn load_end(&mut self, joint: &MarkedJoint, row: usize, end: End) -> Result<(), MarkerLacks> {
-        let Row { joint: number, condition } = self.rows[row];
+        let Row {
+            joint: number,
+            condition,
+        } = self.rows[row];
         let (subsystem, marker) = &joint.ends[end as usize];
         let law = &self.joints[number].law;
         let loads: Vec<(usize, f64)> = law
@@ -190,7 +211,11 @@ impl Layout {
             .map(|(component, &place)| (place, law.load(condition, end, component)))
             .collect();
         for (place, factor) in loads.into_iter().filter(|(_, factor)| *factor != 0.0) {
-            let lack = MarkerLacks { joint: number, end: end as usize, what: Lack::Load };
+            let lack = MarkerLacks {
+                joint: number,
+                end: end as usize,
+                what: Lack::Load,
+            };
             let name = marker.load.get(place).ok_or(lack)?;
             self.drive(*subsystem, name, (row, factor));
         }
@@ -198,7 +223,10 @@ impl Layout {
     }
 
     fn drive(&mut self, subsystem: usize, name: &str, term: (usize, f64)) {
-        let mut own = self.inputs.iter_mut().filter(|input| input.subsystem == subsystem);
+        let mut own = self
+            .inputs
+            .iter_mut()
+            .filter(|input| input.subsystem == subsystem);
         if let Some(input) = own.find(|input| input.name == name) {
             input.combination.push(term);
             return;
@@ -212,18 +240,26 @@ impl Layout {
     }
 
     fn sort_inputs(&mut self) {
-        self.inputs.sort_by_key(|input| (input.subsystem, input.place));
+        self.inputs
+            .sort_by_key(|input| (input.subsystem, input.place));
     }
 
     /// The driven inputs of one subsystem.
     pub fn inputs_of(&self, subsystem: usize) -> impl Iterator<Item = &DrivenInput> {
-        self.inputs.iter().filter(move |input| input.subsystem == subsystem)
+        self.inputs
+            .iter()
+            .filter(move |input| input.subsystem == subsystem)
     }
 
     /// Places of these in [`Layout::inputs`].
     pub fn input_range(&self, subsystem: usize) -> Range<usize> {
-        let start = self.inputs.partition_point(|input| input.subsystem < subsystem);
-        start..self.inputs.partition_point(|input| input.subsystem <= subsystem)
+        let start = self
+            .inputs
+            .partition_point(|input| input.subsystem < subsystem);
+        start
+            ..self
+                .inputs
+                .partition_point(|input| input.subsystem <= subsystem)
     }
 
     /// The joint of a row.
@@ -234,10 +270,19 @@ impl Layout {
     /// Name of a row in result columns: `JOINT.what`, with `.x` and the like if the joint has several rows.
     pub fn column_name(&self, row: usize, what: &str) -> String {
         let joint = self.joint_of(row);
-        match joint.law.rows()[self.rows[row].condition] {
-            "" => format!("{}.{what}", joint.name),
-            part => format!("{}.{what}.{part}", joint.name),
-        }
+        column_name(
+            &joint.name,
+            what,
+            joint.law.rows()[self.rows[row].condition],
+        )
+    }
+}
+
+/// Name of the result column of one condition of a joint.
+pub fn column_name(joint: &str, what: &str, part: &str) -> String {
+    match part {
+        "" => format!("{joint}.{what}"),
+        part => format!("{joint}.{what}.{part}"),
     }
 }
 
@@ -251,8 +296,11 @@ pub fn outputs_of(marker: &v1::Marker, level: Level) -> &[String] {
 }
 
 fn place_of(names: &mut Vec<String>, name: &str) -> usize {
-    names.iter().position(|known| known == name).unwrap_or_else(|| {
-        names.push(name.to_owned());
-        names.len() - 1
-    })
+    names
+        .iter()
+        .position(|known| known == name)
+        .unwrap_or_else(|| {
+            names.push(name.to_owned());
+            names.len() - 1
+        })
 }

@@ -154,7 +154,9 @@ impl Penalty {
 
     fn motion(&self, parts: &Parts, row: usize) -> Motion {
         let joint = parts.layout.rows[row].joint;
-        motion_of(&parts.layout, joint, |s| parts.subsystems[s].coupling_values())
+        motion_of(&parts.layout, joint, |s| {
+            parts.subsystems[s].coupling_values()
+        })
     }
 
     fn force(&self, parts: &Parts, row: usize, motion: &Motion) -> f64 {

@@ -3,7 +3,11 @@
 use super::*;
 
 fn all() -> Vec<Box<dyn Joint>> {
-    vec![Box::new(RigidLink), Box::new(AtPoint::InPlane), Box::new(AtPoint::InSpace)]
+    vec![
+        Box::new(RigidLink),
+        Box::new(AtPoint::InPlane),
+        Box::new(AtPoint::InSpace),
+    ]
 }
 
 /// Motion with no two numbers alike.
@@ -22,13 +26,16 @@ fn gradients_are_the_differences_of_the_conditions() {
     for joint in all() {
         for row in 0..joint.rows().len() {
             for level in Level::ALL {
-                for (end, of) in End::BOTH.into_iter().flat_map(|end| Level::ALL.map(|of| (end, of))) {
+                for (end, of) in End::BOTH
+                    .into_iter()
+                    .flat_map(|end| Level::ALL.map(|of| (end, of)))
+                {
                     for component in 0..joint.reads().len() {
                         let [mut low, mut high] = [motion; 2];
                         low[end as usize][of as usize][component] -= raise;
                         high[end as usize][of as usize][component] += raise;
-                        let difference = joint.condition(row, level, &high)
-                            - joint.condition(row, level, &low);
+                        let difference =
+                            joint.condition(row, level, &high) - joint.condition(row, level, &low);
                         let gradient = joint.gradient(row, level, &motion, end, of, component);
                         assert!((difference / (2.0 * raise) - gradient).abs() < 1e-9);
                     }
@@ -43,8 +50,10 @@ fn action_equals_reaction() {
     for joint in all() {
         for row in 0..joint.rows().len() {
             for component in 0..joint.loads().len() {
-                let sum: f64 =
-                    End::BOTH.iter().map(|&end| joint.load(row, end, component)).sum();
+                let sum: f64 = End::BOTH
+                    .iter()
+                    .map(|&end| joint.load(row, end, component))
+                    .sum();
                 assert_eq!(sum, 0.0);
             }
         }

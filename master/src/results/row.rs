@@ -29,15 +29,24 @@ impl Row {
         let joints = &parts.layout.joints;
         let ends = joints.iter().flat_map(|joint| &joint.ends);
         let positions = ends
-            .flat_map(|end| end.outputs[0].iter().map(|place| first_outputs[end.subsystem] + place))
+            .flat_map(|end| {
+                end.outputs[0]
+                    .iter()
+                    .map(|place| first_outputs[end.subsystem] + place)
+            })
             .collect();
         let rows = 0..parts.layout.rows.len();
-        columns.extend(rows.clone().map(|row| parts.layout.column_name(row, "lambda")));
+        columns.extend(
+            rows.clone()
+                .map(|row| parts.layout.column_name(row, "lambda")),
+        );
         let first_residual = columns.len();
         let levels = parts.layout.level.up_to();
         for row in rows {
             let name = |level: &Level| {
-                parts.layout.column_name(row, &format!("residual.{}", level.name()))
+                parts
+                    .layout
+                    .column_name(row, &format!("residual.{}", level.name()))
             };
             columns.extend(levels.iter().map(name));
         }
@@ -60,11 +69,13 @@ impl Row {
         }
         self.values.extend_from_slice(multipliers);
         for row in &parts.layout.rows {
-            let motion =
-                motion_of(&parts.layout, row.joint, |s| parts.subsystems[s].coupling_values());
+            let motion = motion_of(&parts.layout, row.joint, |s| {
+                parts.subsystems[s].coupling_values()
+            });
             let law = &parts.layout.joints[row.joint].law;
             let levels = parts.layout.level.up_to().iter();
-            self.values.extend(levels.map(|&level| law.condition(row.condition, level, &motion)));
+            self.values
+                .extend(levels.map(|&level| law.condition(row.condition, level, &motion)));
         }
     }
 

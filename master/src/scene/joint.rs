@@ -60,7 +60,10 @@ fn read_multipliers(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Ve
         return field.number(&FINITE, problems).map(|number| vec![number]);
     }
     let fields = field.items("a number or a list of numbers", problems)?;
-    fields.iter().map(|field| field.number(&FINITE, problems)).collect()
+    fields
+        .iter()
+        .map(|field| field.number(&FINITE, problems))
+        .collect()
 }
 
 fn read_side(

@@ -81,6 +81,27 @@ fn an_unknown_marker() {
 }
 
 #[test]
+fn a_joint_that_cannot_hold_its_markers() {
+    refused(
+        &[("kind = \"rigid-link\"", "kind = \"atpoint\"   ")],
+        "\"atpoint\"",
+        &[
+            "cannot hold scalar markers",
+            "scalar markers take a rigid-link",
+        ],
+    );
+}
+
+#[test]
+fn too_many_initial_multipliers() {
+    refused(
+        &[("a = \"mass1\"", "a = \"mass1\"\nmultiplier = [1.0, 2.0]")],
+        "[1.0, 2.0]",
+        &["2 multipliers, this joint has 1"],
+    );
+}
+
+#[test]
 fn an_unknown_model() {
     refused(
         &[("model = \"oscillator\"  ", "model = \"oscilator\"  ")],

@@ -122,7 +122,8 @@ impl RunReport {
             )?;
         }
         for joint in &statistics.joints {
-            let name = format!("{} ({} {})", joint.joint, joint.part, joint.level).replace("( ", "(");
+            let name =
+                format!("{} ({} {})", joint.joint, joint.part, joint.level).replace("( ", "(");
             writeln!(
                 text,
                 "  residual of {name:<19} {:>10.3e} largest",

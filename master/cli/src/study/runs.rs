@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::{Connect, describe};
+use linchpin_master::cosimulation::{Connect, describe, multiplier_columns};
 use linchpin_master::scene::Scene;
 use linchpin_proto::contract::CallError;
 use linchpin_proto::v1::{Model, Severity};
@@ -46,6 +46,11 @@ impl Variant {
             case: self.in_words(),
             source,
         }
+    }
+
+    /// The result columns that studies judge; `models` are those of [`Variant::models`].
+    pub fn judged_columns(&self, models: &[Model]) -> Result<Vec<(String, Kind)>, StudyError> {
+        judged_columns(&self.scene, models).map_err(|source| self.failed(source))
     }
 
     /// The models of all subsystems.
@@ -92,7 +97,7 @@ pub enum Kind {
 }
 
 /// The result columns that studies judge: motion of all markers, multipliers of all joints.
-pub fn judged_columns(scene: &Scene, models: &[Model]) -> Vec<(String, Kind)> {
+fn judged_columns(scene: &Scene, models: &[Model]) -> Result<Vec<(String, Kind)>, RunError> {
     let mut columns = Vec::new();
     for (subsystem, model) in scene.subsystems.iter().zip(models) {
         let positions = model.markers.iter().flat_map(|marker| &marker.position);
@@ -107,9 +112,9 @@ pub fn judged_columns(scene: &Scene, models: &[Model]) -> Vec<(String, Kind)> {
                 .map(|(output, kind)| (format!("{}.{output}", subsystem.name), kind)),
         );
     }
-    let joints = scene.joints.iter();
-    columns.extend(joints.map(|joint| (format!("{}.lambda", joint.name), Kind::Multiplier)));
-    columns
+    let multipliers = multiplier_columns(scene, models)?;
+    columns.extend(multipliers.into_iter().map(|name| (name, Kind::Multiplier)));
+    Ok(columns)
 }
 
 /// Lets the scene record the outputs among `columns`, whatever its coupling asks for.

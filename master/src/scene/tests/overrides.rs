@@ -31,7 +31,7 @@ fn an_override_replaces_or_adds_a_key() {
         "scene.name=other",
     ]);
     assert_eq!(scene.coupling.macro_step, 5e-4);
-    assert_eq!(scene.joints[0].multiplier, Some(3.0));
+    assert_eq!(scene.joints[0].multiplier, Some(vec![3.0]));
     assert_eq!(scene.run.deadline, 1.5);
     assert_eq!(parameter(&scene, 1, "c"), 7.0);
     assert_eq!(parameter(&scene, 0, "c"), 1000.0);

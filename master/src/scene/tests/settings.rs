@@ -226,7 +226,7 @@ fn joints_outputs_and_run_settings_are_optional_in_detail() {
     };
     assert_eq!(scene.joints[0].a, a);
     assert_eq!(scene.joints[0].b.subsystem, 0);
-    assert_eq!(scene.joints[0].multiplier, Some(-0.25));
+    assert_eq!(scene.joints[0].multiplier, Some(vec![-0.25]));
     assert_eq!(scene.output.every, 7);
     let variables = vec!["mass1.v".to_owned(), "mass2.energy".to_owned()];
     assert_eq!(scene.output.variables, Some(variables));

@@ -12,7 +12,7 @@ use linchpin_master::scene::{self, ConvergeSettings, Override, Scene};
 use rayon::prelude::*;
 
 use super::StudyError;
-use super::runs::{Kind, Variant, divergence, judged_columns, record};
+use super::runs::{Kind, Variant, divergence, record};
 use crate::closed_form::ClosedForm;
 use crate::connect::{Connector, Place};
 use crate::simulate::{Recorder, SimulateError, simulate};
@@ -125,7 +125,7 @@ impl Study {
         macro_steps: &[f64],
         tick: &(dyn Fn() + Sync),
     ) -> Result<Self, StudyError> {
-        let columns = judged_columns(&variant.scene, &variant.models()?);
+        let columns = variant.judged_columns(&variant.models()?)?;
         variant.scene.output.every = 1;
         record(&mut variant.scene, &columns);
         let (reference, finest) = match reference {

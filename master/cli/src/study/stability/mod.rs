@@ -11,7 +11,7 @@ use linchpin_proto::v1::Model;
 use rayon::prelude::*;
 
 use super::StudyError;
-use super::runs::{Variant, divergence, in_process, judged_columns};
+use super::runs::{Variant, divergence, in_process};
 use blow_up::BlowUp;
 pub use cell::{Agreement, Cell, Simulated};
 pub use picture::draw_map;
@@ -124,7 +124,7 @@ struct Study {
 impl Study {
     fn new(variant: Variant, grid: &Grid) -> Result<Self, StudyError> {
         let models = variant.models()?;
-        let blow_up = BlowUp::new(judged_columns(&variant.scene, &models));
+        let blow_up = BlowUp::new(variant.judged_columns(&models)?);
         let mut study = Self {
             variant,
             models,

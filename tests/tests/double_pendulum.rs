@@ -1,0 +1,110 @@
+//! The double pendulum of S1 Sect. 4.2 against a monolithic solution: the atpoint joint in the plane.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use linchpin::connect::Place;
+use linchpin::error_norm::ColumnError;
+use linchpin_models::reference::DoublePendulum;
+use linchpin_tests::convergence::slope_of;
+use linchpin_tests::runs::{Trajectory, run};
+use linchpin_tests::scenes::with_settings;
+
+const SCENE: &str = include_str!("../../scenes/double-pendulum.toml");
+
+/// Errors of the couplings stand far above this.
+const SOLVER: &str = "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-12, atol = 1e-12 }";
+
+const STEPS: [f64; 4] = [4e-3, 2e-3, 1e-3, 5e-4];
+
+fn trajectory(coupling: &str, h: f64) -> Trajectory {
+    let coupling = format!("method={coupling} macro_step={h}");
+    run(
+        &with_settings(SCENE, &coupling, &[SOLVER, "scene.t_end=0.4"]),
+        Place::InProcess,
+    )
+}
+
+/// Relative errors (rms) of the angles, the energy, and the multipliers.
+fn errors(trajectory: &Trajectory) -> [f64; 3] {
+    let times = trajectory.column("t");
+    let motions = DoublePendulum::schweizer_lu().motions(&times).unwrap();
+    let error = |column: &str, exact: &dyn Fn(usize) -> f64| {
+        let mut error = ColumnError::default();
+        for (n, value) in trajectory.column(column).into_iter().enumerate() {
+            error.add(value, exact(n));
+        }
+        error
+    };
+    let angles = [0, 1].map(|link| {
+        error(&format!("link{}.angle", link + 1), &|n| {
+            motions[n].angles[link]
+        })
+    });
+    let forces = [0, 1].map(|axis| {
+        let column = ["hinge.lambda.x", "hinge.lambda.y"][axis];
+        error(column, &|n| motions[n].hinge_forces[0][axis])
+    });
+    let mut energy = ColumnError::default();
+    let parts = ["link1.energy", "link2.energy"].map(|column| trajectory.column(column));
+    for (n, motion) in motions.iter().enumerate() {
+        energy.add(parts[0][n] + parts[1][n], motion.energy);
+    }
+    [
+        ColumnError::together(angles),
+        energy,
+        ColumnError::together(forces),
+    ]
+    .map(|error| error.normalised())
+}
+
+#[test]
+fn the_initial_multipliers_are_those_of_the_consistent_start() {
+    let start = trajectory("weighted index=1 degree=0", 1e-3);
+    let lambda = ["hinge.lambda.x", "hinge.lambda.y"].map(|column| start.column(column)[0]);
+    assert!((lambda[0] + 1.839375).abs() < 1e-12 && (lambda[1] + 0.613125).abs() < 1e-12);
+}
+
+#[test]
+fn orders_of_convergence() {
+    let cases = [
+        ("weighted index=1 a=1 b=1 degree=0", [3.0, 3.0, 1.0]),
+        ("weighted index=1 a=1 b=1 degree=1", [4.0, 4.0, 2.0]),
+        // The start limits the multipliers, as for the oscillator.
+        ("weighted index=1 a=2 b=2.6 degree=2", [4.5, 4.9, 2.4]),
+        ("weighted index=2 a=1 b=0 degree=0", [3.0, 3.0, 1.0]),
+        // Tends to 1 as H falls below beta.
+        (
+            "baumgarte index=1 beta=2e-3 gamma=1e-6 degree=0",
+            [1.3, 1.3, 1.0],
+        ),
+        (
+            "baumgarte index=1 beta=2H gamma=H^2 degree=1",
+            [4.0, 4.0, 2.0],
+        ),
+        ("baumgarte index=3 beta=0 gamma=0 degree=0", [4.0, 4.0, 1.0]),
+    ];
+    let mut report = String::new();
+    let mut wrong = 0;
+    for (coupling, expected) in cases {
+        let of_steps = STEPS.map(|h| errors(&trajectory(coupling, h)));
+        let orders = [0, 1, 2].map(|of| {
+            let points = STEPS
+                .iter()
+                .zip(&of_steps)
+                .map(|(h, errors)| (*h, errors[of]));
+            slope_of(points)
+        });
+        let is_wrong = orders
+            .iter()
+            .zip(expected)
+            .any(|(order, expected)| (order - expected).abs() > 0.15);
+        wrong += usize::from(is_wrong);
+        report += &format!("{coupling}: {orders:.2?}, expected {expected:?}\n{of_steps:?}\n");
+    }
+    println!("{report}");
+    assert!(
+        wrong == 0,
+        "{wrong} of {} couplings have other orders:\n{report}",
+        cases.len()
+    );
+}
