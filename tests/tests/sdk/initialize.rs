@@ -30,8 +30,18 @@ fn describe_names_models_and_capabilities(serve: Serve) {
         .iter()
         .map(|model| model.name.as_str())
         .collect();
-    assert_eq!(names, ["oscillator", "tank"]);
-    for (model, repeats_step_sequence) in reply.models.iter().zip([true, false]) {
+    assert_eq!(
+        names,
+        [
+            "oscillator",
+            "pendulum",
+            "planar-body",
+            "spatial-body",
+            "tank"
+        ]
+    );
+    for model in &reply.models {
+        let repeats_step_sequence = model.name != "tank";
         let expected = v1::Capabilities {
             exchange: true,
             repeats_step_sequence,
@@ -92,9 +102,9 @@ fn mistakes_are_named_and_leave_nothing_behind(serve: Serve) {
         }
     };
     check(
-        &|request| request.model = "pendulum".into(),
+        &|request| request.model = "clockwork".into(),
         "model",
-        &["pendulum", "oscillator"],
+        &["clockwork", "oscillator"],
     );
     check(&set("mass", number(1.0)), "parameters.mass", &["m, c, d"]);
     check(
