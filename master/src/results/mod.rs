@@ -6,6 +6,6 @@ mod statistics;
 mod verdict;
 
 pub use guard::Guard;
-pub use row::Row;
+pub use row::{Drawn, Row};
 pub use statistics::{JointResiduals, Statistics, SubsystemStatistics};
 pub use verdict::{Defect, Verdict};

@@ -16,6 +16,17 @@ pub struct Row {
     levels: usize,
 }
 
+/// A column in the picture of a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drawn {
+    /// Position of a marker.
+    Motion,
+    /// Residual on position level.
+    Residual,
+    /// Multiplier.
+    Multiplier,
+}
+
 impl Row {
     pub(crate) fn new(parts: &Parts) -> Self {
         let mut columns = vec!["t".to_owned()];
@@ -95,12 +106,16 @@ impl Row {
         self.values.get(place).copied()
     }
 
-    /// Whether a column belongs to the picture of a run: marker positions, position residuals, multipliers.
-    pub fn is_drawn(&self, place: usize) -> bool {
-        let is_multiplier = (self.first_multiplier..self.first_residual).contains(&place);
-        let is_residual = place >= self.first_residual
-            && (place - self.first_residual).is_multiple_of(self.levels);
-        is_multiplier || is_residual || self.positions.contains(&place)
+    /// What the picture of a run shows of a column; `None` if it leaves the column out.
+    pub fn drawn(&self, place: usize) -> Option<Drawn> {
+        if (self.first_multiplier..self.first_residual).contains(&place) {
+            return Some(Drawn::Multiplier);
+        }
+        if place >= self.first_residual {
+            let is_position = (place - self.first_residual).is_multiple_of(self.levels);
+            return is_position.then_some(Drawn::Residual);
+        }
+        self.positions.contains(&place).then_some(Drawn::Motion)
     }
 
     /// Columns and values of outputs and multipliers: what may grow.

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use linchpin_master::results::Drawn;
 use linchpin_master::scene::Scene;
 
-use super::{RunReport, Trace};
+use super::RunReport;
 use crate::commands::CommandError;
 use crate::plot::{Scale, TimePanel, TimePanels, TimeSeries, time_panels};
 
@@ -12,9 +13,9 @@ use crate::plot::{Scale, TimePanel, TimePanels, TimeSeries, time_panels};
 pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), CommandError> {
     let is_single = reports.len() == 1;
     let panels = [
-        ("position in m", Kind::Motion),
-        ("residual in m", Kind::Residual),
-        ("multiplier in N", Kind::Multiplier),
+        ("position in m", Drawn::Motion),
+        ("residual in m", Drawn::Residual),
+        ("multiplier in N", Drawn::Multiplier),
     ];
     let panels = panels.into_iter().filter_map(|(y_label, kind)| {
         let mut series = Vec::new();
@@ -22,7 +23,7 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
             let case = scene.cases.get(number);
             let method_of = case.and_then(|case| scene.with_case(case).ok());
             let delay = middle_of_step(method_of.as_ref().unwrap_or(scene), kind);
-            let chosen = report.traces.iter().filter(|trace| Kind::of(trace) == kind);
+            let chosen = report.traces.iter().filter(|trace| trace.kind == kind);
             // Several cases: one curve each, so that the picture stays readable.
             let most = if is_single { usize::MAX } else { 1 };
             series.extend(chosen.take(most).map(|trace| {
@@ -52,28 +53,9 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
     Ok(time_panels(&picture, stem)?)
 }
 
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Motion,
-    Residual,
-    Multiplier,
-}
-
-impl Kind {
-    fn of(trace: &Trace) -> Self {
-        if trace.name.ends_with(".lambda") {
-            Self::Multiplier
-        } else if trace.name.contains(".residual.") {
-            Self::Residual
-        } else {
-            Self::Motion
-        }
-    }
-}
-
 /// With `k = 0` a corrected multiplier is the mean over its step, so it belongs to the middle of the step.
-fn middle_of_step(scene: &Scene, kind: Kind) -> f64 {
-    if kind == Kind::Multiplier && scene.coupling.multipliers_are_step_means() {
+fn middle_of_step(scene: &Scene, kind: Drawn) -> f64 {
+    if kind == Drawn::Multiplier && scene.coupling.multipliers_are_step_means() {
         scene.coupling.macro_step / 2.0
     } else {
         0.0

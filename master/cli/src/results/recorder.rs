@@ -120,10 +120,9 @@ impl Recorder for RunRecorder {
 
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
         let columns = row.columns().iter().enumerate();
-        let drawn = columns.filter(|(place, _)| row.is_drawn(*place));
-        self.traces = drawn
-            .map(|(place, name)| (place, Trace::new(name)))
-            .collect();
+        let trace =
+            |(place, name): (usize, &String)| Some((place, Trace::new(name, row.drawn(place)?)));
+        self.traces = columns.filter_map(trace).collect();
         self.errors = self
             .closed_form
             .take()

@@ -1,5 +1,7 @@
 //! A time series in bounded memory, for pictures.
 
+use linchpin_master::results::Drawn;
+
 /// Most points that are kept.
 const MOST_POINTS: usize = 1 << 16;
 
@@ -9,6 +11,8 @@ const MOST_POINTS: usize = 1 << 16;
 pub struct Trace {
     /// Result column.
     pub name: String,
+    /// What it shows.
+    pub kind: Drawn,
     /// Times in s.
     pub t: Vec<f64>,
     /// Values.
@@ -19,9 +23,10 @@ pub struct Trace {
 
 impl Trace {
     /// An empty series of a result column.
-    pub fn new(name: &str) -> Self {
+    pub fn new(name: &str, kind: Drawn) -> Self {
         Self {
             name: name.to_owned(),
+            kind,
             t: Vec::new(),
             y: Vec::new(),
             stride: 1,
@@ -60,7 +65,7 @@ mod tests {
 
     #[test]
     fn a_long_series_stays_bounded_and_evenly_spaced() {
-        let mut trace = Trace::new("x");
+        let mut trace = Trace::new("x", Drawn::Motion);
         for i in 0..1_000_000 {
             trace.push(f64::from(i), 2.0 * f64::from(i));
         }
