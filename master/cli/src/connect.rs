@@ -105,6 +105,7 @@ impl Connector {
                 start: Duration::from_secs_f64(scene.run.start_timeout),
                 answer: Duration::from_secs_f64(scene.run.deadline),
             },
+            polling: polling(scene),
             runtime: self.runtime()?,
             interrupt: self.interrupt.clone(),
         })
@@ -137,4 +138,18 @@ fn this_program() -> std::io::Result<String> {
         false => running,
     };
     Ok(found.to_string_lossy().into_owned())
+}
+
+/// Longest time in which the master polls for an answer: a few wake-ups of a sleeping core.
+const POLLING: Duration = Duration::from_micros(200);
+
+/// The master polls only where it takes no core from a worker: it waits while they compute, so there may be as many of
+/// them as cores.
+fn polling(scene: &Scene) -> Duration {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    if cores > 1 && scene.subsystems.len() <= cores {
+        POLLING
+    } else {
+        Duration::ZERO
+    }
 }

@@ -67,6 +67,8 @@ pub struct Way {
     pub unary_only: bool,
     /// Time limits.
     pub limits: TimeLimits,
+    /// How long to poll for an answer on the exchange stream before sleeping: see [`ExchangeStream::polling`].
+    pub polling: Duration,
     /// Drives all streams of a master.
     pub runtime: Arc<Runtime>,
     /// Ends every wait for the worker.
@@ -81,7 +83,7 @@ pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallErro
         protocol: Some(PROTOCOL),
     })?;
     if !way.unary_only && serves_exchange(&description, way.model.as_deref()) {
-        return Ok(Box::new(ExchangeStream::new(grpc)));
+        return Ok(Box::new(ExchangeStream::new(grpc).polling(way.polling)));
     }
     // Its own runtime: the unary calls of several workers run at the same time on several threads.
     let runtime = new_runtime().map_err(|error| CallError::Unreachable {

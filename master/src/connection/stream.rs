@@ -1,5 +1,10 @@
 //! The exchange stream of a worker behind gRPC.
 
+use std::future::{Future, poll_fn};
+use std::pin::{Pin, pin};
+use std::task::Poll;
+use std::time::{Duration, Instant};
+
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::status::to_error;
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
@@ -16,6 +21,7 @@ pub struct ExchangeStream {
     grpc: Grpc,
     requests: Option<UnboundedSender<ExchangeRequest>>,
     replies: Replies,
+    polling: Duration,
 }
 
 enum Replies {
@@ -33,7 +39,15 @@ impl ExchangeStream {
             grpc,
             requests: Some(requests),
             replies: Replies::Unopened(receiver),
+            polling: Duration::ZERO,
         }
+    }
+
+    /// Polls for so long for an answer before it sleeps. Waking a sleeping core takes longer than many an answer, so this
+    /// pays where a core is free; where workers wait for one it does harm.
+    pub fn polling(mut self, polling: Duration) -> Self {
+        self.polling = polling;
+        self
     }
 }
 
@@ -72,10 +86,9 @@ impl Connection for ExchangeStream {
     }
 
     fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError> {
-        let limit = self.grpc.limits.answer;
         let replies = std::mem::replace(&mut self.replies, Replies::Broken);
-        let answer = unless(&self.grpc.interrupt, within(limit, next(replies)));
-        let (answer, replies) = self.grpc.runtime.block_on(answer)???;
+        let answer = self.grpc.runtime.block_on(self.wait(next(replies)))?;
+        let (answer, replies) = answer?;
         self.replies = Replies::Open(replies);
         *reply = answer;
         match reply.failure.take() {
@@ -87,6 +100,34 @@ impl Connection for ExchangeStream {
     fn route(&self) -> &'static str {
         "exchange stream"
     }
+}
+
+impl ExchangeStream {
+    /// Polls for a while, then sleeps until the answer, the deadline or an interrupt.
+    async fn wait<T>(&self, answer: impl Future<Output = T>) -> Result<T, CallError> {
+        let mut answer = pin!(answer);
+        if let Some(answer) = poll_for(self.polling, answer.as_mut()).await {
+            return Ok(answer);
+        }
+        let limit = self.grpc.limits.answer;
+        unless(&self.grpc.interrupt, within(limit, answer)).await?
+    }
+}
+
+/// The answer, if it comes within `time`; the other tasks of the runtime go on meanwhile.
+async fn poll_for<T>(time: Duration, mut answer: Pin<&mut impl Future<Output = T>>) -> Option<T> {
+    if time.is_zero() {
+        return None;
+    }
+    let started = Instant::now();
+    while started.elapsed() < time {
+        let polled = poll_fn(|context| Poll::Ready(answer.as_mut().poll(context))).await;
+        if let Poll::Ready(answer) = polled {
+            return Some(answer);
+        }
+        tokio::task::yield_now().await;
+    }
+    None
 }
 
 async fn next(
