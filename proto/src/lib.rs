@@ -14,8 +14,11 @@ pub mod status;
 pub mod version;
 
 /// Generated messages, client and server of the package `linchpin.v1`.
-// Generated code carries its documentation in the .proto file.
-#[allow(missing_docs, clippy::all)]
+#[allow(
+    missing_docs,
+    clippy::all,
+    reason = "generated; its documentation stands in the .proto file"
+)]
 pub mod v1 {
     tonic::include_proto!("linchpin.v1");
 

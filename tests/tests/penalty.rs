@@ -12,6 +12,25 @@ use linchpin_tests::runs::{run, try_run};
 use linchpin_tests::scenes::{oscillator_with, with_settings};
 use linchpin_tests::spring_pair::SpringPair;
 
+/// Springs at one marker add up: two joints with end a at mass 1 couple as the same joints with their ends exchanged,
+/// which sit in masses 2 and 3.
+#[test]
+fn joints_may_share_a_marker_at_either_end() {
+    let x = |links: &[(usize, usize)]| {
+        let text = scene_text(&FOUR[..3], links, &[0, 1, 2]);
+        let coupling = "method=jacobi stiffness=3.1e4 damping=43 degree=1 macro_step=5e-5";
+        let scene = with_settings(&text, coupling, &["scene.t_end=0.1"]);
+        run(&scene, Place::InProcess).column("mass1.x")
+    };
+    let (inside, outside) = (x(&[(0, 1), (0, 2)]), x(&[(1, 0), (2, 0)]));
+    let largest = inside.iter().map(|x| x.abs()).fold(0.0, f64::max);
+    let pairs = inside.iter().zip(&outside);
+    let difference = pairs
+        .map(|(one, other)| (one - other).abs())
+        .fold(0.0, f64::max);
+    assert!(difference < 1e-4 * largest, "{difference:e} of {largest:e}");
+}
+
 const STIFFNESS: f64 = 3.1e4;
 const DAMPING: f64 = 43.0;
 

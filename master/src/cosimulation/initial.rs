@@ -1,6 +1,6 @@
 //! Consistent multipliers at the first macro point.
 
-use super::{Parts, at_start};
+use super::Parts;
 use crate::coupling::columns::Column;
 use crate::coupling::layout::{Layout, MarkedJoint};
 use crate::coupling::solve::{LinearSolver, SingularColumn};
@@ -80,7 +80,7 @@ fn solve_accelerations(
 ) -> Result<Vec<f64>, RunError> {
     let t = scene.t_start;
     let rows = layout.rows.len();
-    let free = evaluate_all(layout, parts, t, None)?;
+    let free = evaluate_all(layout, parts, t)?;
     let mut columns = Vec::with_capacity(layout.inputs.len());
     for (number, input) in layout.inputs.iter().enumerate() {
         let loaded = evaluate_one(layout, parts, t, input.subsystem, Some(number))?;
@@ -102,14 +102,10 @@ fn solve_accelerations(
     Ok(solution.to_vec())
 }
 
-fn evaluate_all(
-    layout: &Layout,
-    parts: &Parts,
-    t: f64,
-    loaded: Option<usize>,
-) -> Result<Vec<Vec<f64>>, RunError> {
+/// Outputs that `layout` reads of all subsystems, without loads.
+fn evaluate_all(layout: &Layout, parts: &Parts, t: f64) -> Result<Vec<Vec<f64>>, RunError> {
     (0..parts.subsystems.len())
-        .map(|number| evaluate_one(layout, parts, t, number, loaded))
+        .map(|number| evaluate_one(layout, parts, t, number, None))
         .collect()
 }
 
@@ -135,7 +131,7 @@ fn evaluate_one(
 /// Refuses a scene whose joints are open at the start, on the levels that the method demands below the acceleration.
 fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
     let layout = &parts.layout;
-    let outputs = evaluate_all(layout, parts, scene.t_start, None)?;
+    let outputs = evaluate_all(layout, parts, scene.t_start)?;
     for (number, row) in layout.rows.iter().enumerate() {
         let motion = motion_of(layout, row.joint, |s| outputs[s].as_slice());
         for &level in layout.level.up_to() {
@@ -144,7 +140,7 @@ fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
             if level < Level::Acceleration && residual.abs() > CLOSED * extent(&motion, level) {
                 let message = format!(
                     "the joint is open at t = {} s: {} is {residual:e}",
-                    at_start(scene.t_start).start,
+                    scene.t_start,
                     layout.column_name(number, &format!("residual.{}", level.name()))
                 );
                 let help = "choose initial values of the two subsystems that meet the joint";
@@ -156,12 +152,18 @@ fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
     Ok(())
 }
 
-/// The multipliers that the scene gives, if it gives all of them.
+/// The multipliers that the scene gives: those of all joints, or none.
 fn given_multipliers(scene: &Scene, layout: &Layout) -> Result<Option<Vec<f64>>, RunError> {
+    if scene.joints.iter().all(|joint| joint.multiplier.is_none()) {
+        return Ok((scene.joints.is_empty()).then(Vec::new));
+    }
     let mut given = Vec::new();
     for (joint, bound) in scene.joints.iter().zip(&layout.joints) {
         let Some(multiplier) = &joint.multiplier else {
-            return Ok(None);
+            let message = "this joint has no initial multiplier, but another one does";
+            let help = "give the multipliers of all joints, or none: then all are computed";
+            let key = format!("joint.{}", joint.name);
+            return Err(scene.error(&key, message, Some(help.into())).into());
         };
         let expected = bound.law.rows().len();
         if multiplier.len() != expected {

@@ -9,7 +9,7 @@ use super::{CoSimulation, Parts, Scheme, Subsystem};
 use crate::connection::{Connection, StartError};
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::explicit::Explicit;
-use crate::coupling::layout::{Layout, MarkedJoint};
+use crate::coupling::layout::{Layout, MarkedJoint, springs_at};
 use crate::coupling::penalty::{Order, Penalty};
 use crate::coupling::semi_implicit::SemiImplicit;
 use crate::error::RunError;
@@ -160,20 +160,17 @@ fn spring_parameters(
         return Vec::new();
     };
     let ends = joints.iter().map(|joint| &joint.ends[0]);
-    let springs = ends
-        .filter(|(a, _)| *a == number)
-        .filter_map(|(_, marker)| marker.spring.as_ref());
-    springs
-        .flat_map(|spring| [(&spring.stiffness, stiffness), (&spring.damping, damping)])
-        .map(|(name, value)| {
-            (
-                name.clone(),
-                v1::Value {
-                    kind: Some(Kind::Number(*value)),
-                },
-            )
-        })
-        .collect()
+    let mut parameters = Vec::new();
+    for (a, marker) in ends.filter(|(a, _)| *a == number) {
+        let springs = springs_at(joints, *a, marker);
+        if let Some(spring) = &marker.spring {
+            for (name, value) in [(&spring.stiffness, stiffness), (&spring.damping, damping)] {
+                let kind = Some(Kind::Number(springs * value));
+                parameters.push((name.clone(), v1::Value { kind }));
+            }
+        }
+    }
+    parameters
 }
 
 /// Makes the method of the scene and lets it look ahead over the first macro step.

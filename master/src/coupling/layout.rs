@@ -116,7 +116,8 @@ impl Layout {
 
     /// Ties `joints` that are replaced by spring-dampers inside the subsystem at end a (force/displacement coupling).
     /// Of the variables `(forces, positions of b, velocities of b)`, each with one entry for a row, the force loads
-    /// end b and the motion of b is an input at end a.
+    /// end b and the motion of b is an input at end a. Several joints with end a at one marker share its spring: their
+    /// forces are those of one spring, [`springs_at`] times as stiff, to the mean of the partners.
     ///
     /// # Errors
     /// The first marker that lacks something.
@@ -126,14 +127,15 @@ impl Layout {
         for row in 0..rows {
             let joint = layout.rows[row].joint;
             let (a, marker) = &joints[joint].ends[0];
+            let share = 1.0 / springs_at(joints, *a, marker);
             let spring = marker.spring.as_ref();
             let spring = spring.ok_or(MarkerLacks {
                 joint,
                 end: 0,
                 what: Lack::Spring,
             })?;
-            layout.drive(*a, &spring.partner_position, (rows + row, 1.0));
-            layout.drive(*a, &spring.partner_velocity, (2 * rows + row, 1.0));
+            layout.drive(*a, &spring.partner_position, (rows + row, share));
+            layout.drive(*a, &spring.partner_velocity, (2 * rows + row, share));
             layout.load_end(&joints[joint], row, End::B)?;
         }
         layout.sort_inputs();
@@ -284,6 +286,13 @@ pub fn column_name(joint: &str, what: &str, part: &str) -> String {
         "" => format!("{joint}.{what}"),
         part => format!("{joint}.{what}.{part}"),
     }
+}
+
+/// Number of joints that have end a at this marker.
+pub fn springs_at(joints: &[MarkedJoint], subsystem: usize, marker: &v1::Marker) -> f64 {
+    let ends = joints.iter().map(|joint| &joint.ends[0]);
+    let here = ends.filter(|(a, other)| *a == subsystem && other.name == marker.name);
+    here.count() as f64
 }
 
 /// Names of the marker's outputs on a level.

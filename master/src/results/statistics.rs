@@ -13,7 +13,7 @@ use crate::coupling::layout::Layout;
 pub struct Statistics {
     /// Macro steps done.
     pub macro_steps: u64,
-    /// Messages from the master to workers, each with one answer.
+    /// Turns between the master and a worker: one message each way on an exchange stream, several unary calls otherwise.
     pub exchanges: u64,
     /// Integrations over a macro step, predicted, perturbed and corrected ones together.
     pub integrations: u64,

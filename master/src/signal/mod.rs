@@ -58,11 +58,6 @@ impl History {
         &self.values[0]
     }
 
-    /// Writes the newest value of a variable over: for values that are known only after the point was reached.
-    pub fn set_newest(&mut self, values: &[f64]) {
-        self.values[0].copy_from_slice(values);
-    }
-
     /// Moves on by one macro step of the given length; `values` belong to its end.
     pub fn push(&mut self, length: f64, values: &[f64]) {
         for time in &mut self.times {

@@ -102,6 +102,19 @@ fn too_many_initial_multipliers() {
 }
 
 #[test]
+fn the_initial_multiplier_of_only_one_joint() {
+    let third = "[[subsystem]]\nname = \"mass3\"\nmodel = \"oscillator\"\n\
+                 parameters = { m = 3.0, v0 = 100.0 }\n\
+                 [[joint]]\nname = \"second\"\nkind = \"rigid-link\"\na = \"mass2\"\nb = \"mass3\"\n\
+                 multiplier = 1.0\n[output]";
+    refused(
+        &[("[output]", third)],
+        "[[joint]]",
+        &["joint.link", "no initial multiplier", "all joints, or none"],
+    );
+}
+
+#[test]
 fn an_unknown_model() {
     refused(
         &[("model = \"oscillator\"  ", "model = \"oscilator\"  ")],

@@ -122,8 +122,8 @@ impl RunReport {
             )?;
         }
         for joint in &statistics.joints {
-            let name =
-                format!("{} ({} {})", joint.joint, joint.part, joint.level).replace("( ", "(");
+            let what = [joint.part, joint.level].join(" ");
+            let name = format!("{} ({})", joint.joint, what.trim_start());
             writeln!(
                 text,
                 "  residual of {name:<19} {:>10.3e} largest",
