@@ -2,6 +2,7 @@
 //!
 //! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
+//! * [`joint_load`]: the load that a joint puts on a marker;
 //! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
 //! * [`status`]: failures as gRPC statuses;
 //! * [`version`]: which protocol versions understand each other.
@@ -9,6 +10,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod contract;
+pub mod joint_load;
 pub mod polynomial;
 pub mod status;
 pub mod version;

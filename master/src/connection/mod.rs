@@ -81,6 +81,7 @@ pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallErro
     let grpc = connect_on(Arc::clone(&way.runtime), address, way)?;
     let description = grpc.describe(&v1::DescribeRequest {
         protocol: Some(PROTOCOL),
+        ..Default::default()
     })?;
     if !way.unary_only && serves_exchange(&description, way.model.as_deref()) {
         return Ok(Box::new(ExchangeStream::new(grpc).polling(way.polling)));

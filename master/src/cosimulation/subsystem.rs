@@ -66,6 +66,7 @@ impl Subsystem {
     pub(crate) fn describe(&self) -> Result<v1::DescribeReply, CallError> {
         self.connection.contract().describe(&v1::DescribeRequest {
             protocol: Some(PROTOCOL),
+            ..Default::default()
         })
     }
 

@@ -22,6 +22,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
         .calls()
         .describe(&v1::DescribeRequest {
             protocol: Some(theirs),
+            ..Default::default()
         })
         .unwrap();
     assert_eq!(reply.protocol, Some(PROTOCOL));

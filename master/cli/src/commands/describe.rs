@@ -61,6 +61,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     .map_err(failed)?;
     let request = v1::DescribeRequest {
         protocol: Some(PROTOCOL),
+        ..Default::default()
     };
     let description = worker.describe(&request).map_err(failed)?;
     print(text(&description))?;
