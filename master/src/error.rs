@@ -122,15 +122,15 @@ pub enum RunError {
         /// Factor that was passed.
         growth: f64,
     },
-    /// The coupling conditions do not determine the multipliers.
+    /// The coupling conditions do not determine the coupling variables.
     #[error(
-        "the multiplier of joint \"{joint}\" is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \
+        "{unknown} is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \
          singular on {level} level; a joint is redundant, a coupled body does not react to its load, or H meets half a \
          period of a subsystem (aliasing): change coupling.macro_step or the joints"
     )]
     Singular {
-        /// First joint without a pivot.
-        joint: String,
+        /// First coupling variable without a pivot.
+        unknown: String,
         /// Level of the conditions.
         level: &'static str,
         /// Start of the macro step.

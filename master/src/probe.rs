@@ -13,7 +13,7 @@ use faer::Mat;
 use crate::CoSimulation;
 use crate::cosimulation::{Connect, Options, describe};
 use crate::results::Row;
-use crate::scene::{Increment, Method, Scene};
+use crate::scene::{Increment, JointKind, Method, Scene};
 
 use linchpin_proto::v1::{self, value::Kind};
 
@@ -134,6 +134,7 @@ struct Probe<'a, 'b> {
 
 impl<'a, 'b> Probe<'a, 'b> {
     fn new(scene: &Scene, connect: &'a mut Connect<'b>) -> Result<Self, ProbeError> {
+        check_exchanged(scene)?;
         let memory = memory_of(scene)?;
         let mut coordinates = states_of(scene, &describe(scene, connect)?)?;
         let mut scene = scene.clone();
@@ -241,6 +242,20 @@ impl<'a, 'b> Probe<'a, 'b> {
             _ => Ok(before[place - joints]),
         };
         self.coordinates.iter().enumerate().map(read_one).collect()
+    }
+}
+
+/// Exchanged variables are remembered by the method, but a probe cannot start it with a memory of them.
+fn check_exchanged(scene: &Scene) -> Result<(), ProbeError> {
+    let mut joints = scene.joints.iter();
+    let turning = joints.find(|joint| {
+        let is_offset = joint.geometry.points.iter().any(Option::is_some);
+        is_offset || !matches!(joint.kind, JointKind::RigidLink | JointKind::AtPoint)
+    });
+    let connection = scene.connections.first().map(|connection| &connection.name);
+    match turning.map(|joint| &joint.name).or(connection) {
+        None => Ok(()),
+        Some(name) => Err(ProbeError::Exchanges { name: name.clone() }),
     }
 }
 

@@ -90,6 +90,15 @@ pub struct Reads {
     pub rotation: bool,
 }
 
+/// What a load consists of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Acts {
+    /// It has a force.
+    pub force: bool,
+    /// It has a moment about the marker.
+    pub moment: bool,
+}
+
 /// A message that is no joint load.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JointLoadError {
@@ -154,6 +163,19 @@ impl Default for Pose {
         Self {
             position: Vector3::zeros(),
             rotation: Matrix3::identity(),
+        }
+    }
+}
+
+impl Wrench {
+    /// Component 0, 1, 2 of the force or 3, 4, 5 of the moment.
+    ///
+    /// # Panics
+    /// If there is no such component.
+    pub fn component(&self, component: usize) -> f64 {
+        match component {
+            0..3 => self.force[component],
+            _ => self.moment[component - 3],
         }
     }
 }
@@ -240,6 +262,25 @@ impl JointLaw {
             (Law::Perpendicular { .. }, ..) => (false, true),
         };
         Reads { position, rotation }
+    }
+
+    /// Whether the load on the marker at `end` has a force and a moment; otherwise they are zero.
+    pub fn acts_by(&self, end: End) -> Acts {
+        let is_offset = self.points[end as usize] != Vector3::zeros();
+        match self.law {
+            Law::AtPoint { .. } => Acts {
+                force: true,
+                moment: is_offset,
+            },
+            Law::InPlane { .. } => Acts {
+                force: true,
+                moment: end == End::B || is_offset,
+            },
+            Law::Perpendicular { .. } => Acts {
+                force: false,
+                moment: true,
+            },
+        }
     }
 
     /// What the condition depends on of the marker at `of`.
@@ -505,6 +546,10 @@ mod tests {
                     assert_eq!(reads.position, only(true, false), "{law:?} {end:?} {of:?}");
                     assert_eq!(reads.rotation, only(false, true), "{law:?} {end:?} {of:?}");
                 }
+                let wrench = law.unit_wrench(end, &poses());
+                let acts = law.acts_by(end);
+                assert_eq!(acts.force, wrench.force.norm() > 0.0);
+                assert_eq!(acts.moment, wrench.moment.norm() > 0.0);
             }
         }
     }

@@ -1,155 +1,199 @@
-//! Consistent multipliers at the first macro point.
+//! Consistent coupling variables at the first macro point.
 
-use super::Parts;
+use nalgebra::UnitQuaternion;
+
+use super::{Parts, closed};
 use crate::coupling::columns::Column;
-use crate::coupling::layout::{Layout, MarkedJoint};
+use crate::coupling::layout::{Coupled, Layout, What};
 use crate::coupling::solve::{LinearSolver, SingularColumn};
-use crate::coupling::system::{System, motion_of};
+use crate::coupling::system::{Point, System};
 use crate::error::RunError;
-use crate::joint::{Level, extent};
+use crate::joint::Level;
 use crate::scene::Scene;
-use crate::signal::combine;
+use crate::signal::attitude::unit_quaternion;
 
-/// Joints that are open by less than this share of the motion are closed up to rounding.
-const CLOSED: f64 = 1e-9;
+/// Connected signals that change by less than this share are settled.
+const SETTLED: f64 = 1e-12;
 
-/// Multipliers with which the run starts.
+/// Most passes until connected signals have to be settled.
+const MOST_PASSES: usize = 50;
+
+/// Coupling variables with which the run starts.
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct InitialState {
-    pub(super) multipliers: Vec<f64>,
-}
-
-/// No load at the start.
-pub(super) fn at_rest(parts: &Parts) -> InitialState {
-    InitialState {
-        multipliers: vec![0.0; parts.layout.rows.len()],
-    }
+    /// Multipliers, then exchanged variables.
+    pub(super) variables: Vec<f64>,
+    /// Attitudes to which rotation vectors are relative.
+    pub(super) attitudes: Vec<UnitQuaternion<f64>>,
 }
 
 impl InitialState {
-    /// Takes the multipliers from the scene where it gives them all; otherwise solves `g'' = 0` at `t_start`, which is
-    /// linear in them because loads enter the equations of motion linearly (for the oscillator: S1 eq. 3).
+    /// No load at the start, and no motion of partners.
+    pub(super) fn at_rest(variables: usize) -> Self {
+        Self {
+            variables: vec![0.0; variables],
+            attitudes: Vec::new(),
+        }
+    }
+
+    /// Takes exchanged variables from the subsystems, and the multipliers from the scene where it gives them all; otherwise
+    /// solves `g'' = 0` at `t_start`, which is linear in them because loads enter the equations of motion linearly (for the
+    /// oscillator: S1 eq. 3). Where signals are connected, all are solved for together by Newton's method.
     pub(super) fn find(
         scene: &Scene,
-        joints: &[MarkedJoint],
+        coupled: &Coupled<'_>,
         parts: &Parts,
         accept_open_joints: bool,
     ) -> Result<Self, RunError> {
+        let layout = &parts.layout;
+        let given = given_multipliers(scene, layout)?;
+        let mut state = Self::read(scene, layout, parts, given.as_deref())?;
         if !accept_open_joints {
-            check_closed(scene, parts)?;
+            let outputs = evaluate_all(layout, parts, scene.t_start, &state)?;
+            closed::check(scene, layout, &outputs)?;
         }
-        let given = given_multipliers(scene, &parts.layout)?;
-        if let Some(multipliers) = given {
-            return Ok(Self { multipliers });
+        if given.is_none() {
+            let layout = Layout::new(coupled, Level::Acceleration)
+                .map_err(|lacks| ask_for_multiplier(scene, lacks.joint))?;
+            state.solve_accelerations(scene, &layout, parts)?;
         }
-        let subsystems = parts.subsystems.len();
-        let layout = Layout::new(joints, subsystems, Level::Acceleration)
-            .map_err(|lacks| ask_for_multiplier(scene, lacks.joint))?;
-        Ok(Self {
-            multipliers: solve_accelerations(scene, &layout, parts)?,
-        })
+        Ok(state)
     }
 
-    /// Reads the outputs of all subsystems at `t` under these multipliers.
+    /// Exchanged variables as the subsystems show them under these multipliers, 0 if none are given.
+    fn read(
+        scene: &Scene,
+        layout: &Layout,
+        parts: &Parts,
+        multipliers: Option<&[f64]>,
+    ) -> Result<Self, RunError> {
+        let mut state = Self {
+            variables: vec![0.0; layout.variables()],
+            attitudes: vec![UnitQuaternion::identity(); layout.attitudes().count()],
+        };
+        if let Some(multipliers) = multipliers {
+            state.variables[..multipliers.len()].copy_from_slice(multipliers);
+        }
+        for _ in 0..MOST_PASSES {
+            let outputs = evaluate_all(layout, parts, scene.t_start, &state)?;
+            let change = state.take(layout, &outputs);
+            // Positions do not depend on inputs; connected signals may.
+            if scene.connections.is_empty() || change <= SETTLED {
+                return Ok(state);
+            }
+        }
+        Err(refuse_loop(scene))
+    }
+
+    /// Takes over what the outputs show; returns the largest change relative to the value.
+    fn take(&mut self, layout: &Layout, outputs: &[Vec<f64>]) -> f64 {
+        let mut largest: f64 = 0.0;
+        for exchanged in &layout.exchanged {
+            let own = &outputs[exchanged.subsystem];
+            match exchanged.what {
+                What::Output(place) => {
+                    let value = &mut self.variables[exchanged.first];
+                    let change = (own[place] - *value).abs() / own[place].abs().max(1.0);
+                    largest = largest.max(change);
+                    *value = own[place];
+                }
+                What::Attitude { places, attitude } => {
+                    self.attitudes[attitude] = unit_quaternion(places.map(|place| own[place]));
+                }
+            }
+        }
+        largest
+    }
+
+    fn solve_accelerations(
+        &mut self,
+        scene: &Scene,
+        layout: &Layout,
+        parts: &Parts,
+    ) -> Result<(), RunError> {
+        let mut system = System::new(layout);
+        let mut solver = LinearSolver::new(system.pattern());
+        for _ in 0..MOST_PASSES {
+            let base = evaluate_all(layout, parts, scene.t_start, self)?;
+            let columns = self.columns(layout, parts, scene.t_start, &base)?;
+            let point = Point {
+                w: &self.variables,
+                attitudes: &self.attitudes,
+            };
+            system.assemble(layout, |subsystem| &base[subsystem], &columns, point);
+            let (pattern, jacobian, change) = system.level_equation(Level::Acceleration);
+            solver
+                .solve(pattern, jacobian, change)
+                .map_err(|SingularColumn(variable)| refuse_redundant(scene, layout, variable))?;
+            let mut largest: f64 = 0.0;
+            for (value, change) in self.variables.iter_mut().zip(change) {
+                *value += *change;
+                largest = largest.max(change.abs() / value.abs().max(1.0));
+            }
+            if scene.connections.is_empty() || largest <= SETTLED {
+                return Ok(());
+            }
+        }
+        Err(refuse_loop(scene))
+    }
+
+    /// Responses of zero length to all perturbed inputs.
+    fn columns(
+        &self,
+        layout: &Layout,
+        parts: &Parts,
+        t: f64,
+        base: &[Vec<f64>],
+    ) -> Result<Vec<Column>, RunError> {
+        let mut columns = Vec::with_capacity(layout.inputs.len());
+        for input in &layout.inputs {
+            let mut column = Column {
+                increment: 1.0,
+                is_load: input.drives_load(layout.rows.len()),
+                ..Column::default()
+            };
+            let names = &layout.outputs[input.subsystem];
+            if input.perturbed.is_some() && !names.is_empty() {
+                let mut inputs =
+                    layout.input_values(input.subsystem, &self.variables, &self.attitudes);
+                if !column.is_load {
+                    column.increment = 1e-6 * inputs[input.place].abs().max(1.0);
+                }
+                inputs[input.place] += column.increment;
+                let subsystem = &parts.subsystems[input.subsystem];
+                let raised = subsystem.evaluate(t, &inputs, names)?;
+                column.difference(&base[input.subsystem], &raised);
+            }
+            columns.push(column);
+        }
+        Ok(columns)
+    }
+
+    /// Reads the outputs of all subsystems at `t` under these variables.
     pub(super) fn read_outputs(&self, t: f64, parts: &mut Parts) -> Result<(), RunError> {
         for number in 0..parts.subsystems.len() {
-            let inputs = self.inputs(&parts.layout, number);
+            let inputs = parts
+                .layout
+                .input_values(number, &self.variables, &self.attitudes);
             let subsystem = &mut parts.subsystems[number];
             subsystem.outputs = subsystem.evaluate(t, &inputs, &subsystem.output_names)?;
         }
         Ok(())
     }
-
-    /// Driven inputs of one subsystem; motion of a partner counts as absent.
-    fn inputs(&self, layout: &Layout, number: usize) -> Vec<f64> {
-        let rows = layout.rows.len();
-        let load = |input: &crate::coupling::layout::DrivenInput| {
-            let loads = input
-                .combination
-                .iter()
-                .filter(|(variable, _)| *variable < rows);
-            combine(&loads.copied().collect::<Vec<_>>(), &self.multipliers)
-        };
-        layout.inputs_of(number).map(load).collect()
-    }
 }
 
-fn solve_accelerations(
-    scene: &Scene,
-    layout: &Layout,
-    parts: &Parts,
-) -> Result<Vec<f64>, RunError> {
-    let t = scene.t_start;
-    let rows = layout.rows.len();
-    let free = evaluate_all(layout, parts, t)?;
-    let mut columns = Vec::with_capacity(layout.inputs.len());
-    for (number, input) in layout.inputs.iter().enumerate() {
-        let loaded = evaluate_one(layout, parts, t, input.subsystem, Some(number))?;
-        let mut column = Column {
-            increment: 1.0,
-            ..Column::default()
-        };
-        column.difference(&free[input.subsystem], &loaded);
-        columns.push(column);
-    }
-    let mut system = System::new(rows, Level::Acceleration);
-    let outputs = |subsystem: usize| free[subsystem].as_slice();
-    system.assemble_residuals(layout, outputs);
-    system.assemble_jacobians(layout, outputs, &columns);
-    let (jacobian, solution) = system.level_equation(Level::Acceleration);
-    LinearSolver::new(rows)
-        .solve(jacobian, solution)
-        .map_err(|SingularColumn(row)| refuse_redundant(scene, layout.rows[row].joint))?;
-    Ok(solution.to_vec())
-}
-
-/// Outputs that `layout` reads of all subsystems, without loads.
-fn evaluate_all(layout: &Layout, parts: &Parts, t: f64) -> Result<Vec<Vec<f64>>, RunError> {
-    (0..parts.subsystems.len())
-        .map(|number| evaluate_one(layout, parts, t, number, None))
-        .collect()
-}
-
-/// Outputs that `layout` reads of one subsystem, with a unit load at input `loaded`.
-fn evaluate_one(
+/// Outputs that `layout` reads of all subsystems under the variables of `state`.
+fn evaluate_all(
     layout: &Layout,
     parts: &Parts,
     t: f64,
-    number: usize,
-    loaded: Option<usize>,
-) -> Result<Vec<f64>, RunError> {
-    let own = layout
-        .inputs
-        .iter()
-        .enumerate()
-        .filter(|(_, input)| input.subsystem == number);
-    let inputs: Vec<f64> = own
-        .map(|(input, _)| if Some(input) == loaded { 1.0 } else { 0.0 })
-        .collect();
-    parts.subsystems[number].evaluate(t, &inputs, &layout.outputs[number])
-}
-
-/// Refuses a scene whose joints are open at the start, on the levels that the method demands below the acceleration.
-fn check_closed(scene: &Scene, parts: &Parts) -> Result<(), RunError> {
-    let layout = &parts.layout;
-    let outputs = evaluate_all(layout, parts, scene.t_start)?;
-    for (number, row) in layout.rows.iter().enumerate() {
-        let motion = motion_of(layout, row.joint, |s| outputs[s].as_slice());
-        for &level in layout.level.up_to() {
-            let law = &layout.joints[row.joint].law;
-            let residual = law.condition(row.condition, level, &motion);
-            if level < Level::Acceleration && residual.abs() > CLOSED * extent(&motion, level) {
-                let message = format!(
-                    "the joint is open at t = {} s: {} is {residual:e}",
-                    scene.t_start,
-                    layout.column_name(number, &format!("residual.{}", level.name()))
-                );
-                let help = "choose initial values of the two subsystems that meet the joint";
-                let key = format!("joint.{}", scene.joints[row.joint].name);
-                return Err(scene.error(&key, message, Some(help.into())).into());
-            }
-        }
-    }
-    Ok(())
+    state: &InitialState,
+) -> Result<Vec<Vec<f64>>, RunError> {
+    let evaluate = |number: usize| {
+        let inputs = layout.input_values(number, &state.variables, &state.attitudes);
+        parts.subsystems[number].evaluate(t, &inputs, &layout.outputs[number])
+    };
+    (0..parts.subsystems.len()).map(evaluate).collect()
 }
 
 /// The multipliers that the scene gives: those of all joints, or none.
@@ -165,7 +209,7 @@ fn given_multipliers(scene: &Scene, layout: &Layout) -> Result<Option<Vec<f64>>,
             let key = format!("joint.{}", joint.name);
             return Err(scene.error(&key, message, Some(help.into())).into());
         };
-        let expected = bound.law.rows().len();
+        let expected = bound.joint.len();
         if multiplier.len() != expected {
             let message = format!(
                 "{} multipliers, this joint has {expected}",
@@ -179,12 +223,23 @@ fn given_multipliers(scene: &Scene, layout: &Layout) -> Result<Option<Vec<f64>>,
     Ok(Some(given))
 }
 
-fn refuse_redundant(scene: &Scene, joint: usize) -> RunError {
-    let key = format!("joint.{}", scene.joints[joint].name);
-    let message = "nothing determines the multiplier of this joint at the start: another joint demands the same \
-                   already, or no coupled body reacts to its load";
+fn refuse_redundant(scene: &Scene, layout: &Layout, variable: usize) -> RunError {
+    let Some(row) = layout.rows.get(variable) else {
+        return refuse_loop(scene);
+    };
+    let key = format!("joint.{}", scene.joints[row.joint].name);
+    let message = format!(
+        "nothing determines {} at the start: another joint demands the same already, or no coupled body reacts to its load",
+        layout.column_name(variable, "lambda")
+    );
     let help = "remove the redundant joint, or check the markers at its ends";
     scene.error(&key, message, Some(help.into())).into()
+}
+
+fn refuse_loop(scene: &Scene) -> RunError {
+    let message = "the connected signals have no unique value at the start: they depend on each other without delay";
+    let help = "let one of the connected models have a state between its input and its output";
+    scene.error("connection", message, Some(help.into())).into()
 }
 
 fn ask_for_multiplier(scene: &Scene, joint: usize) -> RunError {

@@ -1,5 +1,7 @@
 //! A run from start to end: the macro step, told by one function.
 
+mod closed;
+mod geometry;
 mod initial;
 mod refusal;
 mod start;
@@ -131,24 +133,25 @@ impl Parts {
             let advance = subsystem.request.advance.get_or_insert_default();
             advance.t = step.start;
             advance.step = step.length;
-            let inputs = self.layout.inputs_of(number).count();
+            let inputs = self.layout.inputs_of(number).len();
             advance.signals.resize_with(inputs, Default::default);
         }
     }
 
-    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0, once for each driven
-    /// input; subsystems without one have nothing to tell. The signals are filled in by the method.
+    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0, once for each perturbed
+    /// input; subsystems whose outputs nobody reads have nothing to tell. The signals are filled in by the method.
     pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
-            let inputs = self.layout.inputs_of(number).count();
-            if inputs == 0 {
+            let inputs = self.layout.inputs_of(number).len();
+            let perturbed = self.layout.perturbed_inputs(number);
+            if subsystem.coupling_outputs == 0 {
                 continue;
             }
             let predict = subsystem.request.predict.get_or_insert_default();
             predict.t = t;
             predict.step = length;
             predict.signals.resize_with(inputs, Default::default);
-            predict.perturbed.resize_with(inputs, Default::default);
+            predict.perturbed.resize_with(perturbed, Default::default);
         }
     }
 

@@ -2,19 +2,20 @@
 
 use linchpin_proto::v1::{self, value::Kind};
 
-use super::initial::{InitialState, at_rest};
+use super::initial::InitialState;
 use super::refusal::{Refusals, refuse_setup};
-use super::tie::{mark, model_of, recorded_outputs, refuse_marker};
+use super::tie::{connect_signals, mark, model_of, recorded_outputs, refuse_marker};
 use super::{CoSimulation, Parts, Scheme, Subsystem};
 use crate::connection::{Connection, StartError};
+use crate::coupling::columns::Increments;
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::explicit::Explicit;
-use crate::coupling::layout::{Layout, MarkedJoint, springs_at};
+use crate::coupling::layout::{Coupled, Layout, LoadForm, MarkedJoint, springs_at};
 use crate::coupling::penalty::{Order, Penalty};
 use crate::coupling::semi_implicit::SemiImplicit;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Method, Scene};
+use crate::scene::{self, Loads, Method, Scene};
 use crate::signal::History;
 use crate::time::{MacroGrid, MacroStep};
 
@@ -44,7 +45,14 @@ impl CoSimulation {
         let mut subsystems = connect_all(scene, connect)?;
         let models = models_of(scene, &subsystems)?;
         let joints = mark(scene, &models)?;
-        let layout = layout_of(scene, &joints)?;
+        let connections = connect_signals(scene, &models)?;
+        let coupled = Coupled {
+            subsystems: names(scene),
+            forms: load_forms(scene, &models)?,
+            joints: &joints,
+            connections: &connections,
+        };
+        let layout = layout_of(scene, &coupled)?;
         let recorded = recorded_outputs(scene, &models, &layout.outputs)?;
         let mut refusals = Refusals::default();
         for (number, subsystem) in subsystems.iter_mut().enumerate() {
@@ -62,13 +70,13 @@ impl CoSimulation {
             Method::Jacobi { .. } | Method::GaussSeidel { .. }
         );
         let initial = if is_spring || options.established.is_some() {
-            at_rest(&parts)
+            InitialState::at_rest(3 * parts.layout.rows.len())
         } else {
-            InitialState::find(scene, &joints, &parts, options.accept_open_joints)?
+            InitialState::find(scene, &coupled, &parts, options.accept_open_joints)?
         };
         initial.read_outputs(scene.t_start, &mut parts)?;
         let grid = MacroGrid::new(scene.t_start, scene.t_end, scene.coupling.macro_step);
-        let scheme = begin(scene, options, initial.multipliers, &mut parts, &grid)?;
+        let scheme = begin(scene, options, initial, &mut parts, &grid)?;
         let mut row = Row::new(&parts);
         row.read(scene.t_start, &parts, scheme.multipliers());
         let guard = match &scheme {
@@ -111,15 +119,59 @@ fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem
     scene.subsystems.iter().map(connect_one).collect()
 }
 
-fn layout_of(scene: &Scene, joints: &[MarkedJoint]) -> Result<Layout, RunError> {
+fn names(scene: &Scene) -> Vec<&str> {
+    let subsystems = scene.subsystems.iter();
+    subsystems
+        .map(|subsystem| subsystem.name.as_str())
+        .collect()
+}
+
+fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
     let method = &scene.coupling.method;
     let layout = match method {
         Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
-            Layout::with_springs(joints, scene.subsystems.len())
+            if let Some(connection) = scene.connections.first() {
+                let key = format!("connection.{}", connection.name);
+                let message = "jacobi and gauss-seidel connect no signals";
+                let help = "choose coupling.method = \"weighted\", \"baumgarte\" or \"explicit\"";
+                return Err(scene.error(&key, message, Some(help.into())).into());
+            }
+            Layout::with_springs(coupled)
         }
-        _ => Layout::new(joints, scene.subsystems.len(), level_of(method)),
+        _ => Layout::new(coupled, level_of(method)),
     };
     layout.map_err(|lacks| refuse_marker(scene, lacks))
+}
+
+/// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
+const LOAD_DEGREE: usize = 5;
+
+/// How each subsystem takes loads whose direction turns with the bodies.
+fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<LoadForm>, RunError> {
+    let coupling = &scene.coupling;
+    let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
+        let capabilities = model.capabilities.unwrap_or_default();
+        match coupling.loads {
+            Loads::Automatic | Loads::Worker if capabilities.joint_loads => Ok(LoadForm::Joint),
+            Loads::Worker => {
+                let message = format!(
+                    "the model \"{}\" of subsystem \"{}\" cannot evaluate loads of joints",
+                    model.name, written.name
+                );
+                let help = "choose coupling.loads = \"automatic\"";
+                Err(scene
+                    .error("coupling.loads", message, Some(help.into()))
+                    .into())
+            }
+            Loads::Automatic | Loads::Master => Ok(LoadForm::Wrench {
+                degree: match (coupling.degree, coupling.exchanged_degree) {
+                    (0, 0) => 0,
+                    _ => LOAD_DEGREE.min(capabilities.max_input_degree as usize),
+                },
+            }),
+        }
+    };
+    scene.subsystems.iter().zip(models).map(form).collect()
 }
 
 fn initialize_request(
@@ -138,14 +190,19 @@ fn initialize_request(
         parameters,
         solver: written.solver.clone(),
         t_start: scene.t_start,
-        inputs: layout
-            .inputs_of(number)
-            .map(|input| input.name.clone())
-            .collect(),
+        inputs: input_names(layout, number, false),
+        joint_inputs: input_names(layout, number, true),
+        joint_loads: layout.joint_loads[number].clone(),
         coupling_outputs: layout.outputs[number].clone(),
         recorded_outputs: recorded.to_vec(),
         ..v1::InitializeRequest::default()
     }
+}
+
+fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<String> {
+    let inputs = layout.inputs_of(number).iter();
+    let inputs = inputs.filter(|input| input.is_joint_input == are_joint_inputs);
+    inputs.map(|input| input.name.clone()).collect()
 }
 
 /// Stiffness and damping of the penalty springs that sit in subsystem `number`.
@@ -177,16 +234,25 @@ fn spring_parameters(
 fn begin(
     scene: &Scene,
     options: &Options,
-    multipliers: Vec<f64>,
+    initial: InitialState,
     parts: &mut Parts,
     grid: &MacroGrid,
 ) -> Result<Scheme, RunError> {
     let coupling = &scene.coupling;
+    let increments = Increments(coupling.increment);
+    let InitialState {
+        variables: values,
+        attitudes,
+    } = initial;
+    let variables = parts
+        .layout
+        .describe_variables(coupling.degree, coupling.exchanged_degree);
     let condition = match coupling.method {
         Method::Baumgarte { beta, gamma, .. } => Condition::Baumgarte { beta, gamma },
         Method::Weighted { a, b, .. } => Condition::Weighted { a, b },
         Method::Explicit { mu } => {
-            let mut method = Explicit::new(mu, coupling.increment, multipliers, parts);
+            let history = History::new(variables, &values, attitudes);
+            let mut method = Explicit::new(mu, increments, history, parts);
             method.begin(parts, first_step(grid))?;
             return Ok(Scheme::Explicit(method));
         }
@@ -206,10 +272,10 @@ fn begin(
         }
     };
     let history = match &options.established {
-        Some(values) => History::established(coupling.degree, coupling.macro_step, values),
-        None => History::new(coupling.degree, &multipliers),
+        Some(values) => History::established(variables, coupling.macro_step, values, attitudes),
+        None => History::new(variables, &values, attitudes),
     };
-    let mut method = SemiImplicit::new(condition, coupling.increment, history, parts);
+    let mut method = SemiImplicit::new(condition, increments, history, parts);
     method.begin(parts, first_step(grid))?;
     Ok(Scheme::SemiImplicit(method))
 }

@@ -1,5 +1,6 @@
 //! One subsystem as the master sees it: a connection, the last messages, and outputs at the present macro point.
 
+use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
 
 use linchpin_proto::contract::CallError;
@@ -63,10 +64,16 @@ impl Subsystem {
         self.connection.route()
     }
 
-    pub(crate) fn describe(&self) -> Result<v1::DescribeReply, CallError> {
+    /// What the worker offers; where `model` is given, that model with these parameters, if the worker can tell.
+    pub(crate) fn describe(
+        &self,
+        model: Option<&str>,
+        parameters: &BTreeMap<String, v1::Value>,
+    ) -> Result<v1::DescribeReply, CallError> {
         self.connection.contract().describe(&v1::DescribeRequest {
             protocol: Some(PROTOCOL),
-            ..Default::default()
+            model: model.map(str::to_owned),
+            parameters: parameters.clone(),
         })
     }
 
@@ -170,19 +177,19 @@ impl Subsystem {
     /// The signal of driven input `place` in the advance that was prepared.
     pub(crate) fn advance_signal(&mut self, place: usize) -> &mut v1::Signal {
         let advance = self.request.advance.get_or_insert_default();
-        signal_of(&mut advance.signals, place)
+        signal_of(&mut advance.signals, place, place)
     }
 
-    /// The signal of driven input `place` in the prediction that was prepared, and the perturbed one.
-    pub(crate) fn prediction_signals(
-        &mut self,
-        place: usize,
-    ) -> (&mut v1::Signal, &mut v1::Signal) {
+    /// The signal of driven input `place` in the prediction that was prepared.
+    pub(crate) fn prediction_signal(&mut self, place: usize) -> &mut v1::Signal {
         let predict = self.request.predict.get_or_insert_default();
-        (
-            signal_of(&mut predict.signals, place),
-            signal_of(&mut predict.perturbed, place),
-        )
+        signal_of(&mut predict.signals, place, place)
+    }
+
+    /// Perturbed signal number `perturbed` in the prediction that was prepared, which replaces that of input `place`.
+    pub(crate) fn perturbed_signal(&mut self, perturbed: usize, place: usize) -> &mut v1::Signal {
+        let predict = self.request.predict.get_or_insert_default();
+        signal_of(&mut predict.perturbed, perturbed, place)
     }
 
     /// Coupling outputs at the present macro point.
@@ -258,9 +265,9 @@ impl Drop for Subsystem {
     }
 }
 
-fn signal_of(signals: &mut [v1::Signal], place: usize) -> &mut v1::Signal {
-    let signal = &mut signals[place];
-    signal.input = place as u32;
+fn signal_of(signals: &mut [v1::Signal], number: usize, input: usize) -> &mut v1::Signal {
+    let signal = &mut signals[number];
+    signal.input = input as u32;
     signal
 }
 

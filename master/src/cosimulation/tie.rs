@@ -1,14 +1,17 @@
 //! Finds models, markers and outputs that a scene names in what the workers describe.
 
+use std::sync::Arc;
+
 use linchpin_proto::v1::{self, MarkerKind};
 use linchpin_proto::version;
 
+use super::geometry::law_of;
 use super::{Subsystem, at_start};
-use crate::coupling::layout::{Lack, MarkedJoint, MarkerLacks, column_name};
+use crate::coupling::layout::{Lack, MarkedConnection, MarkedJoint, MarkerLacks, column_name};
 use crate::error::RunError;
-use crate::joint::{AtPoint, Joint as Law, Level, RigidLink};
+use crate::joint::Level;
 use crate::scene::nearest::nearest;
-use crate::scene::{Joint, JointKind, Scene, Side};
+use crate::scene::{Connection, Joint, Scene, Side};
 
 /// Asks a worker for its models and chooses the one that the scene wants.
 pub(super) fn model_of(
@@ -18,7 +21,7 @@ pub(super) fn model_of(
 ) -> Result<v1::Model, RunError> {
     let written = &scene.subsystems[number];
     let description = subsystem
-        .describe()
+        .describe(written.model.as_deref(), &written.parameters)
         .map_err(|error| subsystem.failed(error, at_start(scene.t_start)))?;
     version::negotiate(description.protocol.as_ref()).map_err(|source| RunError::Incompatible {
         subsystem: written.name.clone(),
@@ -68,10 +71,10 @@ pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoin
             Ok::<_, RunError>((side.subsystem, marker))
         };
         let ends = [marker(&joint.a, "a")?, marker(&joint.b, "b")?];
-        let law = law_between(scene, joint, &ends)?;
+        let kind = kind_of(scene, joint, &ends)?;
         Ok(MarkedJoint {
             name: joint.name.clone(),
-            law,
+            joint: Arc::new(law_of(scene, joint, kind)?),
             ends,
         })
     };
@@ -85,36 +88,87 @@ pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoin
 pub fn multiplier_columns(scene: &Scene, models: &[v1::Model]) -> Result<Vec<String>, RunError> {
     let joints = mark(scene, models)?;
     let names = joints.iter().flat_map(|joint| {
-        let parts = (joint.law)().rows().iter();
-        parts.map(|part| column_name(&joint.name, "lambda", part))
+        let rows = 0..joint.joint.len();
+        rows.map(|row| column_name(&joint.name, "lambda", joint.joint.name(row)))
     });
     Ok(names.collect())
 }
 
-/// The law of a joint between two markers, which must be of one kind that the joint can hold.
-fn law_between(
+/// The kind of the two markers of a joint, which must be the same.
+fn kind_of(
     scene: &Scene,
     joint: &Joint,
     [(_, a), (_, b)]: &[(usize, v1::Marker); 2],
-) -> Result<fn() -> Box<dyn Law>, RunError> {
+) -> Result<MarkerKind, RunError> {
+    if a.kind == b.kind {
+        return Ok(a.kind());
+    }
+    let message = format!("it joins a {} and a {} marker", kind_name(a), kind_name(b));
+    let help = "both markers must be of the same kind";
     let key = format!("joint.{}", joint.name);
-    if a.kind != b.kind {
-        let message = format!("it joins a {} and a {} marker", kind_name(a), kind_name(b));
-        let help = "both markers must be of the same kind";
-        return Err(scene.error(&key, message, Some(help.into())).into());
-    }
-    match (joint.kind, a.kind()) {
-        (JointKind::RigidLink, MarkerKind::Scalar) => Ok(|| Box::new(RigidLink)),
-        (JointKind::AtPoint, MarkerKind::Planar) => Ok(|| Box::new(AtPoint::InPlane)),
-        (JointKind::AtPoint, MarkerKind::Spatial) => Ok(|| Box::new(AtPoint::InSpace)),
-        _ => {
-            let message = format!("this joint cannot hold {} markers", kind_name(a));
-            let help = "scalar markers take a rigid-link; planar and spatial ones an atpoint joint";
-            Err(scene
-                .error(&format!("{key}.kind"), message, Some(help.into()))
-                .into())
+    Err(scene.error(&key, message, Some(help.into())).into())
+}
+
+/// The signal connections of the scene, with outputs and inputs that the models have.
+pub(super) fn connect_signals(
+    scene: &Scene,
+    models: &[v1::Model],
+) -> Result<Vec<MarkedConnection>, RunError> {
+    let mut driven: Vec<&(usize, String)> = Vec::new();
+    let mut connections = Vec::new();
+    for connection in &scene.connections {
+        find_variable(scene, connection, "from", models)?;
+        find_variable(scene, connection, "to", models)?;
+        if driven.contains(&&connection.to) {
+            let (subsystem, input) = &connection.to;
+            let subsystem = &scene.subsystems[*subsystem].name;
+            let message =
+                format!("\"{subsystem}.{input}\" is driven by another connection already");
+            let help = "an input takes one signal";
+            let key = format!("connection.{}.to", connection.name);
+            return Err(scene.error(&key, message, Some(help.into())).into());
         }
+        driven.push(&connection.to);
+        connections.push(MarkedConnection {
+            from: connection.from.clone(),
+            to: connection.to.clone(),
+        });
     }
+    Ok(connections)
+}
+
+fn find_variable(
+    scene: &Scene,
+    connection: &Connection,
+    end: &str,
+    models: &[v1::Model],
+) -> Result<(), RunError> {
+    let is_source = end == "from";
+    let (subsystem, name) = match is_source {
+        true => &connection.from,
+        false => &connection.to,
+    };
+    let model = &models[*subsystem];
+    let (what, variables) = match is_source {
+        true => ("output", &model.outputs),
+        false => ("input", &model.inputs),
+    };
+    let known: Vec<&str> = variables
+        .iter()
+        .map(|variable| variable.name.as_str())
+        .collect();
+    if known.contains(&name.as_str()) {
+        return Ok(());
+    }
+    let message = format!(
+        "model \"{}\" has no {what} \"{name}\"; it has: {}",
+        model.name,
+        known.join(", ")
+    );
+    let key = format!("connection.{}.{end}", connection.name);
+    Err(scene
+        .error(&key, message, did_you_mean(name, &known))
+        .into())
 }
 
 fn kind_name(marker: &v1::Marker) -> &'static str {

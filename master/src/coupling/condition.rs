@@ -27,7 +27,7 @@ pub enum Condition {
     },
 }
 
-/// No unique solution for the multiplier of this row, on this level.
+/// No unique solution for the coupling variable of this number, on this level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SingularRow {
     /// Row of the system.
@@ -40,7 +40,7 @@ impl SingularRow {
     /// The error of a run that met it in `step`.
     pub fn in_step(self, parts: &Parts, step: MacroStep) -> RunError {
         RunError::Singular {
-            joint: parts.layout.joint_of(self.row).name.clone(),
+            unknown: parts.layout.variable_name(self.row),
             level: self.level.name(),
             t: step.start,
             step: step.length,
@@ -48,18 +48,15 @@ impl SingularRow {
     }
 }
 
-/// Refuses multipliers that have grown out of the range of numbers.
-pub fn check_finite(multipliers: &[f64], parts: &Parts, step: MacroStep) -> Result<(), RunError> {
-    match multipliers
-        .iter()
-        .position(|multiplier| !multiplier.is_finite())
-    {
+/// Refuses coupling variables that have grown out of the range of numbers.
+pub fn check_finite(variables: &[f64], parts: &Parts, step: MacroStep) -> Result<(), RunError> {
+    match variables.iter().position(|value| !value.is_finite()) {
         None => Ok(()),
         Some(row) => Err(RunError::Grown {
             t: step.end,
             step: step.length,
-            variable: parts.layout.column_name(row, "lambda"),
-            value: multipliers[row],
+            variable: parts.layout.variable_name(row),
+            value: variables[row],
             growth: f64::MAX,
         }),
     }
@@ -89,23 +86,21 @@ impl Condition {
         match *self {
             Self::Baumgarte { beta, gamma } => {
                 system.combine([1.0, beta, gamma]);
-                for (change, g) in change.iter_mut().zip(system.combined_residual()) {
-                    *change = -g;
-                }
+                let level = system.level();
+                let (pattern, jacobian, own) = system.combined_equation();
                 solver
-                    .solve(system.combined_jacobian(), change)
-                    .map_err(|SingularColumn(row)| SingularRow {
-                        row,
-                        level: system.level(),
-                    })
+                    .solve(pattern, jacobian, own)
+                    .map_err(|SingularColumn(row)| SingularRow { row, level })?;
+                change.copy_from_slice(own);
+                Ok(())
             }
             Self::Weighted { a, b } => {
                 change.fill(0.0);
                 for (&level, weight) in system.level().up_to().iter().zip([1.0, a, b]) {
                     let share = weight / (1.0 + a + b);
-                    let (jacobian, own) = system.level_equation(level);
+                    let (pattern, jacobian, own) = system.level_equation(level);
                     solver
-                        .solve(jacobian, own)
+                        .solve(pattern, jacobian, own)
                         .map_err(|SingularColumn(row)| SingularRow { row, level })?;
                     for (change, own) in change.iter_mut().zip(own) {
                         *change += share * *own;

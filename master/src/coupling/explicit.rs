@@ -2,72 +2,77 @@
 
 use std::time::Instant;
 
-use super::columns::Column;
+use super::columns::{Columns, Increments};
 use super::condition::{Condition, check_finite};
+use super::layout::Over;
 use super::solve::LinearSolver;
-use super::system::System;
+use super::system::{Point, System};
 use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::results::Verdict;
-use crate::scene::Increment;
-use crate::signal::combine;
+use crate::signal::{Curve, History};
 use crate::time::MacroStep;
 
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
-/// `T_{N+1}`. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices and no step is repeated.
+/// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices
+/// and no step is repeated.
 pub struct Explicit {
     condition: Condition,
-    increment: Increment,
-    multipliers: Vec<f64>,
+    history: History,
+    rows: usize,
     change: Vec<f64>,
-    columns: Vec<Column>,
+    values: Vec<f64>,
+    memory: Vec<f64>,
+    columns: Columns,
     system: System,
     solver: LinearSolver,
 }
 
 impl Explicit {
-    /// The method with time constant `mu` (s), from trial multipliers.
-    pub fn new(mu: f64, increment: Increment, multipliers: Vec<f64>, parts: &Parts) -> Self {
-        let rows = parts.layout.rows.len();
+    /// The method with time constant `mu` (s), from trial values of the coupling variables.
+    pub fn new(mu: f64, increments: Increments, history: History, parts: &Parts) -> Self {
+        let size = parts.layout.variables();
+        let system = System::new(&parts.layout);
         Self {
             condition: Condition::Baumgarte {
                 beta: 2.0 * mu,
                 gamma: mu * mu,
             },
-            increment,
-            multipliers,
-            change: vec![0.0; rows],
-            columns: vec![Column::default(); parts.layout.inputs.len()],
-            system: System::new(rows, parts.layout.level),
-            solver: LinearSolver::new(rows),
+            rows: parts.layout.rows.len(),
+            change: vec![0.0; size],
+            values: history.newest().to_vec(),
+            history,
+            memory: vec![0.0; size],
+            columns: Columns::new(increments, &parts.layout),
+            solver: LinearSolver::new(system.pattern()),
+            system,
         }
     }
 
     /// Multipliers at the present macro point.
     pub fn multipliers(&self) -> &[f64] {
-        &self.multipliers
+        &self.history.newest()[..self.rows]
     }
 
     /// Evaluates the first macro point and solves for its multipliers.
     pub fn begin(&mut self, parts: &mut Parts, first: MacroStep) -> Result<(), RunError> {
         self.request_evaluation(parts, first.start);
         exchange(&mut parts.subsystems, first)?;
-        self.solve(parts, first)
+        self.solve(parts, first, 0.0)
     }
 
     /// One macro step: advance with the multipliers of its start, evaluate its end, solve there.
     pub fn macro_step(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Outcome, RunError> {
         parts.prepare_advance(step);
+        let mut over = over(&self.history, step.length, &mut self.memory);
         for input in &parts.layout.inputs {
-            let held = combine(&input.combination, &self.multipliers);
-            parts.subsystems[input.subsystem]
-                .advance_signal(input.place)
-                .set_constant(held);
+            let subsystem = &mut parts.subsystems[input.subsystem];
+            input.signal(&mut over, subsystem.advance_signal(input.place));
         }
         self.request_evaluation(parts, step.end);
         exchange(&mut parts.subsystems, step)?;
         let started = Instant::now();
-        self.solve(parts, step)?;
+        self.solve(parts, step, step.length)?;
         let solving = started.elapsed().as_secs_f64();
         Ok(Outcome {
             verdict: Verdict::Uncorrected,
@@ -77,24 +82,50 @@ impl Explicit {
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
         parts.prepare_prediction(t, 0.0);
-        for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
+        for (number, input) in parts.layout.inputs.iter().enumerate() {
             let subsystem = &mut parts.subsystems[input.subsystem];
-            let trial = combine(&input.combination, &self.multipliers);
-            column.choose_increment(self.increment, trial, subsystem.tolerance);
-            let (signal, raised) = subsystem.prediction_signals(input.place);
-            signal.set_constant(trial);
-            raised.set_constant(trial + column.increment);
+            let mut over = over(&self.history, 0.0, &mut self.memory);
+            input.signal(&mut over, subsystem.prediction_signal(input.place));
+            let Some(place) = input.perturbed else {
+                continue;
+            };
+            let trial = input.value(self.history.newest(), self.history.attitudes());
+            let increment = self
+                .columns
+                .choose_increment(number, trial, subsystem.tolerance);
+            let raised = subsystem.perturbed_signal(place, input.place);
+            input.raised_signal(&mut over, increment, raised);
         }
     }
 
-    fn solve(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
-        self.system.assemble(parts, &mut self.columns);
+    fn solve(&mut self, parts: &Parts, step: MacroStep, length: f64) -> Result<(), RunError> {
+        self.columns.difference(parts);
+        let point = Point {
+            w: self.history.newest(),
+            attitudes: self.history.attitudes(),
+        };
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
+        self.system
+            .assemble(&parts.layout, outputs, self.columns.all(), point);
         self.condition
             .solve(&mut self.system, &mut self.solver, &mut self.change)
             .map_err(|singular| singular.in_step(parts, step))?;
-        for (multiplier, change) in self.multipliers.iter_mut().zip(&self.change) {
-            *multiplier += change;
+        let trial = self.history.newest().iter().zip(&self.change);
+        for (value, (trial, change)) in self.values.iter_mut().zip(trial) {
+            *value = trial + change;
         }
-        check_finite(&self.multipliers, parts, step)
+        check_finite(&self.values, parts, step)?;
+        self.history.push(length, &self.values);
+        Ok(())
+    }
+}
+
+/// All variables are held.
+fn over<'a>(history: &'a History, step: f64, memory: &'a mut [f64]) -> Over<'a> {
+    Over {
+        history,
+        curve: Curve::Extrapolated,
+        step,
+        memory,
     }
 }

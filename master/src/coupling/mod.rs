@@ -1,7 +1,8 @@
 //! The coupling of the whole scene: conditions, Jacobian, and the methods that solve for the multipliers.
 //!
-//! * [`layout`]: which outputs the joints read and which inputs they load;
+//! * [`layout`]: which outputs the joints read, which are exchanged, and which inputs are driven;
 //! * [`system`]: `g` and `G = dg/dw` on every level, assembled from the joints and the workers' columns;
+//! * [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
 //! * [`columns`]: increments and finite differences;
 //! * [`semi_implicit`], [`explicit`], [`penalty`]: one macro step of each family of methods.
@@ -10,6 +11,7 @@ pub mod columns;
 pub mod condition;
 pub mod explicit;
 pub mod layout;
+pub mod pattern;
 pub mod penalty;
 pub mod semi_implicit;
 pub mod solve;

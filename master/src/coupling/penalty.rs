@@ -7,13 +7,16 @@
 
 use super::condition::check_finite;
 use super::layout::DrivenInput;
+use super::layout::input::Source;
 use super::system::motion_of;
 use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
 use crate::results::Verdict;
-use crate::signal::History;
+use crate::signal::{Curve, History, Variables};
 use crate::time::MacroStep;
+
+use linchpin_proto::v1::Signal;
 
 /// In which order the subsystems step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,11 +44,15 @@ impl Penalty {
             order,
             stiffness,
             damping,
-            history: History::new(degree, &[]),
+            history: History::new(Variables::default(), &[], Vec::new()),
             values: vec![0.0; 3 * parts.layout.rows.len()],
         };
         method.read_variables(parts);
-        method.history = History::new(degree, &method.values);
+        let variables = Variables {
+            degrees: vec![degree; method.values.len()],
+            rotations: Vec::new(),
+        };
+        method.history = History::new(variables, &method.values, Vec::new());
         method
     }
 
@@ -74,7 +81,7 @@ impl Penalty {
     fn all_at_once(&self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
         for input in &parts.layout.inputs {
             let signal = parts.subsystems[input.subsystem].advance_signal(input.place);
-            self.history.extrapolate(&input.combination, signal);
+            self.send(input, Curve::Extrapolated, step, signal);
         }
         exchange(&mut parts.subsystems, step)
     }
@@ -86,15 +93,27 @@ impl Penalty {
                 let signal = parts.subsystems[number].advance_signal(input.place);
                 match end {
                     Some(end) => {
-                        self.history
-                            .interpolate(&input.combination, step.length, end, signal);
+                        self.send(input, Curve::Interpolated(&self.values), step, signal);
+                        signal.values[0] = end;
                     }
-                    None => self.history.extrapolate(&input.combination, signal),
+                    None => self.send(input, Curve::Extrapolated, step, signal),
                 }
             }
             exchange(&mut parts.subsystems[number..=number], step)?;
         }
         Ok(())
+    }
+
+    fn send(&self, input: &DrivenInput, curve: Curve<'_>, step: MacroStep, signal: &mut Signal) {
+        if let Source::Sum(combination) = &input.source {
+            self.history.signal(combination, curve, step.length, signal);
+        }
+    }
+
+    /// Value of a variable at the end of the step, extrapolated.
+    fn extrapolated(&self, variable: usize, step: MacroStep) -> f64 {
+        self.history
+            .value(variable, Curve::Extrapolated, step.length, step.length)
     }
 
     /// Value of an input at the end of the step, if a subsystem before `number` has determined part of it.
@@ -107,11 +126,13 @@ impl Penalty {
     ) -> Option<f64> {
         let mut is_known = false;
         let mut sum = 0.0;
-        for &(variable, factor) in &input.combination {
+        let Source::Sum(combination) = &input.source else {
+            return None;
+        };
+        for &(variable, factor) in combination {
             let known = self.known_variable(variable, parts, number, step);
             is_known |= known.is_some();
-            let value =
-                known.unwrap_or_else(|| self.history.extrapolated_value(variable, step.length));
+            let value = known.unwrap_or_else(|| self.extrapolated(variable, step));
             sum += factor * value;
         }
         is_known.then_some(sum)
@@ -132,12 +153,12 @@ impl Penalty {
         match variable / rows {
             0 if a < number => {
                 // End b, which takes this force, has not stepped: the spring has seen its extrapolated motion.
-                motion[1][0][0] = self.history.extrapolated_value(rows + row, step.length);
-                motion[1][1][0] = self.history.extrapolated_value(2 * rows + row, step.length);
+                motion[1].pose.position.x = self.extrapolated(rows + row, step);
+                motion[1].velocity.x = self.extrapolated(2 * rows + row, step);
                 Some(self.force(parts, row, &motion))
             }
-            1 if b < number => Some(motion[1][0][0]),
-            2 if b < number => Some(motion[1][1][0]),
+            1 if b < number => Some(motion[1].pose.position.x),
+            2 if b < number => Some(motion[1].velocity.x),
             _ => None,
         }
     }
@@ -147,8 +168,8 @@ impl Penalty {
         for row in 0..rows {
             let motion = self.motion(parts, row);
             self.values[row] = self.force(parts, row, &motion);
-            self.values[rows + row] = motion[1][0][0];
-            self.values[2 * rows + row] = motion[1][1][0];
+            self.values[rows + row] = motion[1].pose.position.x;
+            self.values[2 * rows + row] = motion[1].velocity.x;
         }
     }
 
@@ -160,9 +181,9 @@ impl Penalty {
     }
 
     fn force(&self, parts: &Parts, row: usize, motion: &Motion) -> f64 {
-        let law = &parts.layout.joint_of(row).law;
         let condition = parts.layout.rows[row].condition;
-        self.stiffness * law.condition(condition, Level::Position, motion)
-            + self.damping * law.condition(condition, Level::Velocity, motion)
+        let condition = parts.layout.joint_of(row).joint.condition(condition);
+        self.stiffness * condition.value(Level::Position, motion)
+            + self.damping * condition.value(Level::Velocity, motion)
     }
 }

@@ -2,60 +2,64 @@
 
 use std::time::Instant;
 
-use super::columns::Column;
+use super::columns::{Columns, Increments};
 use super::condition::{Condition, check_finite};
+use super::layout::Over;
 use super::solve::LinearSolver;
-use super::system::{System, motion_of};
+use super::system::{Point, System, motion_of};
 use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
-use crate::joint::{Level, extent};
+use crate::joint::Level;
 use crate::results::{Defect, Verdict};
-use crate::scene::Increment;
-use crate::signal::{History, combine};
+use crate::signal::{Curve, History};
 use crate::time::MacroStep;
 
 /// State of a semi-implicit method between two macro steps.
 pub struct SemiImplicit {
     condition: Condition,
-    increment: Increment,
     history: History,
+    rows: usize,
     predicted: Vec<f64>,
     change: Vec<f64>,
     corrected: Vec<f64>,
     promised: Vec<f64>,
     shift: Vec<f64>,
-    columns: Vec<Column>,
+    memory: Vec<f64>,
+    columns: Columns,
     system: System,
     solver: LinearSolver,
 }
 
 impl SemiImplicit {
-    /// The method with multipliers `history` up to the first macro point.
+    /// The method with coupling variables `history` up to the first macro point.
     pub fn new(
         condition: Condition,
-        increment: Increment,
+        increments: Increments,
         history: History,
         parts: &Parts,
     ) -> Self {
-        let rows = parts.layout.rows.len();
+        let size = parts.layout.variables();
+        let zeros = || vec![0.0; size];
+        let system = System::new(&parts.layout);
         Self {
             condition,
-            increment,
             history,
-            predicted: vec![0.0; rows],
-            change: vec![0.0; rows],
-            corrected: vec![0.0; rows],
-            promised: vec![0.0; rows],
-            shift: vec![0.0; rows],
-            columns: vec![Column::default(); parts.layout.inputs.len()],
-            system: System::new(rows, parts.layout.level),
-            solver: LinearSolver::new(rows),
+            rows: parts.layout.rows.len(),
+            predicted: zeros(),
+            change: zeros(),
+            corrected: zeros(),
+            promised: zeros(),
+            shift: zeros(),
+            memory: zeros(),
+            columns: Columns::new(increments, &parts.layout),
+            solver: LinearSolver::new(system.pattern()),
+            system,
         }
     }
 
     /// Multipliers at the present macro point.
     pub fn multipliers(&self) -> &[f64] {
-        self.history.newest()
+        &self.history.newest()[..self.rows]
     }
 
     /// Looks ahead over the first macro step.
@@ -85,63 +89,89 @@ impl SemiImplicit {
         Ok(Outcome { verdict, solving })
     }
 
-    /// S1 eqs. (62) to (68), (73) to (76): columns, Jacobian, corrected multipliers at `T_{N+1}`.
+    /// S1 eqs. (62) to (68), (73) to (76): columns, Jacobian, corrected coupling variables at `T_{N+1}`.
     fn correct(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
-        self.system.assemble(parts, &mut self.columns);
+        self.columns.difference(parts);
+        let point = Point {
+            w: &self.predicted,
+            attitudes: self.history.attitudes(),
+        };
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
+        self.system
+            .assemble(&parts.layout, outputs, self.columns.all(), point);
         self.condition
             .solve(&mut self.system, &mut self.solver, &mut self.change)
             .map_err(|singular| singular.in_step(parts, step))?;
-        for (row, corrected) in self.corrected.iter_mut().enumerate() {
-            *corrected = self.predicted[row] + self.change[row];
+        let ends = self.predicted.iter().zip(&self.change);
+        for (corrected, (predicted, change)) in self.corrected.iter_mut().zip(ends) {
+            *corrected = predicted + change;
         }
+        self.promised
+            .copy_from_slice(self.system.residual(Level::Position));
         check_finite(&self.corrected, parts, step)
     }
 
     /// S1 eq. (69): the interpolation through the corrected end value.
     fn request_advance(&mut self, parts: &mut Parts, step: MacroStep) {
         parts.prepare_advance(step);
+        let mut over = Over {
+            history: &self.history,
+            curve: Curve::Interpolated(&self.corrected),
+            step: step.length,
+            memory: &mut self.memory,
+        };
         for input in &parts.layout.inputs {
             let subsystem = &mut parts.subsystems[input.subsystem];
-            let signal = subsystem.advance_signal(input.place);
-            let end = combine(&input.combination, &self.corrected);
-            self.history
-                .interpolate(&input.combination, step.length, end, signal);
+            input.signal(&mut over, subsystem.advance_signal(input.place));
         }
     }
 
     /// S1 eqs. (56), (59): the extrapolation, and for every input the interpolation through its raised end value.
     fn request_prediction(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
-        for (row, predicted) in self.predicted.iter_mut().enumerate() {
-            *predicted = self.history.extrapolated_value(row, step.length);
+        let length = step.length;
+        for (variable, predicted) in self.predicted.iter_mut().enumerate() {
+            let curve = Curve::Extrapolated;
+            *predicted = self.history.value(variable, curve, length, length);
         }
         check_finite(&self.predicted, parts, step)?;
-        parts.prepare_prediction(step.start, step.length);
-        for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
+        parts.prepare_prediction(step.start, length);
+        for (number, input) in parts.layout.inputs.iter().enumerate() {
             let subsystem = &mut parts.subsystems[input.subsystem];
-            let end = combine(&input.combination, &self.predicted);
-            column.choose_increment(self.increment, end, subsystem.tolerance);
-            let (signal, raised) = subsystem.prediction_signals(input.place);
-            self.history.extrapolate(&input.combination, signal);
-            let end = end + column.increment;
-            self.history
-                .interpolate(&input.combination, step.length, end, raised);
+            let mut over = Over {
+                history: &self.history,
+                curve: Curve::Extrapolated,
+                step: length,
+                memory: &mut self.memory,
+            };
+            input.signal(&mut over, subsystem.prediction_signal(input.place));
+            let Some(place) = input.perturbed else {
+                continue;
+            };
+            let end = input.value(&self.predicted, self.history.attitudes());
+            let increment = self
+                .columns
+                .choose_increment(number, end, subsystem.tolerance);
+            over.curve = Curve::Interpolated(&self.predicted);
+            let raised = subsystem.perturbed_signal(place, input.place);
+            input.raised_signal(&mut over, increment, raised);
         }
         Ok(())
     }
 
     /// Compares the position conditions at the corrected outputs with what their linearisation promised.
     fn judge(&mut self, parts: &Parts) -> Verdict {
-        self.promised
-            .copy_from_slice(self.system.residual(Level::Position));
         self.system
             .shift(Level::Position, &self.change, &mut self.shift);
         let corrected = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
-        self.system.assemble_residuals(&parts.layout, corrected);
         let mut defect = Defect::default();
-        for (row, found) in self.system.residual(Level::Position).iter().enumerate() {
-            let motion = motion_of(&parts.layout, parts.layout.rows[row].joint, corrected);
-            let extent = extent(&motion, Level::Position);
-            defect.add(self.promised[row], self.shift[row], *found, extent);
+        for (number, row) in parts.layout.rows.iter().enumerate() {
+            let motion = motion_of(&parts.layout, row.joint, corrected);
+            let condition = parts.layout.joints[row.joint]
+                .joint
+                .condition(row.condition);
+            let found = condition.value(Level::Position, &motion);
+            let extent = condition.extent(Level::Position, &motion);
+            defect.add(self.promised[number], self.shift[number], found, extent);
         }
         defect.verdict()
     }

@@ -4,6 +4,8 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::{Mat, Par};
 
+use super::pattern::Pattern;
+
 /// LU decomposition with partial pivoting of an `n x n` matrix, in memory that is kept from step to step.
 pub struct LinearSolver {
     matrix: Mat<f64>,
@@ -21,8 +23,9 @@ pub struct SingularColumn(pub usize);
 const PIVOT_ROUNDING: f64 = 1e-14;
 
 impl LinearSolver {
-    /// A solver for `n` unknowns.
-    pub fn new(n: usize) -> Self {
+    /// A solver for matrices of a pattern.
+    pub fn new(pattern: &Pattern) -> Self {
+        let n = pattern.size();
         let factor = factor::lu_in_place_scratch::<usize, f64>(n, n, Par::Seq, Default::default());
         let solve = solve::solve_in_place_scratch::<usize, f64>(n, 1, Par::Seq);
         Self {
@@ -34,10 +37,19 @@ impl LinearSolver {
         }
     }
 
-    /// Solves `matrix x = rhs` and writes `x` over `rhs`.
-    pub fn solve(&mut self, matrix: &Mat<f64>, rhs: &mut [f64]) -> Result<(), SingularColumn> {
+    /// Solves `matrix x = rhs` and writes `x` over `rhs`; `values` are the entries of the matrix.
+    pub fn solve(
+        &mut self,
+        pattern: &Pattern,
+        values: &[f64],
+        rhs: &mut [f64],
+    ) -> Result<(), SingularColumn> {
         let n = rhs.len();
-        self.matrix.copy_from(matrix);
+        self.matrix.fill(0.0);
+        let places = pattern.rows().iter().zip(pattern.columns());
+        for ((&row, &column), value) in places.zip(values) {
+            self.matrix[(row, column)] = *value;
+        }
         for (row, value) in rhs.iter().enumerate() {
             self.rhs[(row, 0)] = *value;
         }
@@ -50,9 +62,10 @@ impl LinearSolver {
             Default::default(),
         );
         for column in 0..n {
-            let largest = (0..n)
-                .map(|row| matrix[(row, column)].abs())
-                .fold(0.0, f64::max);
+            let own = &values[pattern.starts()[column]..pattern.starts()[column + 1]];
+            let largest = own
+                .iter()
+                .fold(0.0, |largest: f64, value| largest.max(value.abs()));
             let pivot = self.matrix[(column, column)].abs();
             if pivot.is_nan() || pivot <= PIVOT_ROUNDING * largest {
                 return Err(SingularColumn(column));
@@ -77,14 +90,21 @@ impl LinearSolver {
 mod tests {
     use super::*;
 
+    fn solve<const N: usize>(matrix: [[f64; N]; N], rhs: &mut [f64]) -> Result<(), SingularColumn> {
+        let pattern = Pattern::new(N, |visit| {
+            (0..N).for_each(|column| (0..N).for_each(|row| visit(row, column)));
+        });
+        let places = pattern.rows().iter().zip(pattern.columns());
+        let values: Vec<f64> = places.map(|(&row, &column)| matrix[row][column]).collect();
+        LinearSolver::new(&pattern).solve(&pattern, &values, rhs)
+    }
+
     #[test]
     fn solves_a_system_that_needs_pivoting() {
-        let matrix = faer::mat![[0.0, 2.0, 1.0], [1e-3, -1.0, 0.5], [4.0, 0.0, 3.0]];
+        let matrix = [[0.0, 2.0, 1.0], [1e-3, -1.0, 0.5], [4.0, 0.0, 3.0]];
         let x = [0.3, -2.0, 7.0];
-        let mut rhs: Vec<f64> = (0..3)
-            .map(|i| (0..3).map(|j| matrix[(i, j)] * x[j]).sum())
-            .collect();
-        LinearSolver::new(3).solve(&matrix, &mut rhs).unwrap();
+        let mut rhs = matrix.map(|row| row.iter().zip(x).map(|(a, x)| a * x).sum());
+        solve(matrix, &mut rhs).unwrap();
         for (found, expected) in rhs.iter().zip(x) {
             assert!((found - expected).abs() < 1e-13);
         }
@@ -92,16 +112,8 @@ mod tests {
 
     #[test]
     fn a_redundant_column_is_named() {
-        let matrix = faer::mat![[1.0, 2.0], [2.0, 4.0]];
-        let mut rhs = [1.0, 2.0];
-        assert_eq!(
-            LinearSolver::new(2).solve(&matrix, &mut rhs),
-            Err(SingularColumn(1))
-        );
-        let nothing = faer::mat![[0.0]];
-        assert_eq!(
-            LinearSolver::new(1).solve(&nothing, &mut [1.0]),
-            Err(SingularColumn(0))
-        );
+        let redundant = solve([[1.0, 2.0], [2.0, 4.0]], &mut [1.0, 2.0]);
+        assert_eq!(redundant, Err(SingularColumn(1)));
+        assert_eq!(solve([[0.0]], &mut [1.0]), Err(SingularColumn(0)));
     }
 }

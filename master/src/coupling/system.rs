@@ -1,32 +1,56 @@
 //! Coupling conditions and Jacobian of the whole scene.
 
-use faer::{Mat, unzip, zip};
+use nalgebra::UnitQuaternion;
 
 use super::columns::Column;
-use super::layout::{BoundJoint, Layout};
-use crate::cosimulation::Parts;
+use super::layout::{Exchanged, Layout};
+use super::pattern::Pattern;
 use crate::joint::{End, Level, Motion};
 
-/// `g` and `G = dg/dw` on every level, with `w` the multipliers; memory is kept from step to step.
+/// `g` and `G = dg/dw` on every level, with `w` the coupling variables: multipliers, then exchanged variables. The rows are
+/// the conditions of the joints, then those of the exchanged variables, `w - y = 0`, which are the same on every level.
+/// Memory is kept from step to step.
 pub struct System {
     level: Level,
+    rows: usize,
+    pattern: Pattern,
     residuals: [Vec<f64>; 3],
-    jacobians: [Mat<f64>; 3],
+    jacobians: [Vec<f64>; 3],
     combined_residual: Vec<f64>,
-    combined_jacobian: Mat<f64>,
+    combined_jacobian: Vec<f64>,
     rhs: Vec<f64>,
+    motions: Vec<Motion>,
+    gradients: Vec<f64>,
+    gradient_starts: Vec<usize>,
+}
+
+/// The values about which the system is linearised.
+#[derive(Clone, Copy)]
+pub struct Point<'a> {
+    /// Coupling variables.
+    pub w: &'a [f64],
+    /// Attitudes to which rotation vectors are relative.
+    pub attitudes: &'a [UnitQuaternion<f64>],
 }
 
 impl System {
-    /// A system of `rows` rows on the levels up to `level`.
-    pub fn new(rows: usize, level: Level) -> Self {
+    /// The system of `layout`.
+    pub fn new(layout: &Layout) -> Self {
+        let size = layout.variables();
+        let pattern = Pattern::new(size, |visit| visit_entries(layout, visit));
+        let entries = pattern.entries();
         Self {
-            level,
-            residuals: std::array::from_fn(|_| vec![0.0; rows]),
-            jacobians: std::array::from_fn(|_| Mat::zeros(rows, rows)),
-            combined_residual: vec![0.0; rows],
-            combined_jacobian: Mat::zeros(rows, rows),
-            rhs: vec![0.0; rows],
+            level: layout.level,
+            rows: layout.rows.len(),
+            residuals: std::array::from_fn(|_| vec![0.0; size]),
+            jacobians: std::array::from_fn(|_| vec![0.0; entries]),
+            combined_residual: vec![0.0; size],
+            combined_jacobian: vec![0.0; entries],
+            rhs: vec![0.0; size],
+            motions: Vec::with_capacity(layout.joints.len()),
+            gradients: Vec::new(),
+            gradient_starts: Vec::with_capacity(layout.inputs.len() + 1),
+            pattern,
         }
     }
 
@@ -35,135 +59,246 @@ impl System {
         self.level
     }
 
+    /// Which entries of the Jacobians may differ from 0.
+    pub fn pattern(&self) -> &Pattern {
+        &self.pattern
+    }
+
     /// `g`, `g'` or `g''` of every row as last assembled.
     pub fn residual(&self, level: Level) -> &[f64] {
         &self.residuals[level as usize]
     }
 
-    /// `dg/dw` on a level as last assembled.
-    pub fn jacobian(&self, level: Level) -> &Mat<f64> {
-        &self.jacobians[level as usize]
+    /// Conditions and Jacobians at `point`.
+    pub fn assemble<'a>(
+        &mut self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64] + Copy,
+        columns: &[Column],
+        point: Point<'_>,
+    ) {
+        self.assemble_residuals(layout, outputs, point);
+        self.assemble_jacobians(layout, outputs, columns, point);
     }
 
-    /// Assembles conditions and Jacobians from the last prediction of all subsystems and its perturbed steps.
-    pub fn assemble(&mut self, parts: &Parts, columns: &mut [Column]) {
-        let layout = &parts.layout;
-        let predicted = |subsystem: usize| parts.subsystems[subsystem].predicted();
-        for (input, column) in layout.inputs.iter().zip(&mut *columns) {
-            let perturbed = &parts.subsystems[input.subsystem].reply.perturbed[input.place];
-            column.difference(predicted(input.subsystem), &perturbed.values);
-        }
-        self.assemble_residuals(layout, predicted);
-        self.assemble_jacobians(layout, predicted, columns);
-    }
-
-    /// Evaluates the conditions of all joints. `outputs[s]` are the coupling outputs of subsystem `s`.
+    /// Evaluates the conditions at `point`. `outputs(s)` are the coupling outputs of subsystem `s`.
     pub fn assemble_residuals<'a>(
         &mut self,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
+        point: Point<'_>,
     ) {
         for (number, row) in layout.rows.iter().enumerate() {
             let motion = motion_of(layout, row.joint, outputs);
-            let law = &layout.joints[row.joint].law;
+            let condition = layout.joints[row.joint].joint.condition(row.condition);
             for &level in self.level.up_to() {
-                self.residuals[level as usize][number] =
-                    law.condition(row.condition, level, &motion);
+                self.residuals[level as usize][number] = condition.value(level, &motion);
+            }
+        }
+        for exchanged in &layout.exchanged {
+            let shown = exchanged.read(outputs(exchanged.subsystem), point.attitudes, point.w);
+            for (component, shown) in shown.iter().take(exchanged.len()).enumerate() {
+                let variable = exchanged.first + component;
+                for &level in self.level.up_to() {
+                    self.residuals[level as usize][variable] = point.w[variable] - shown;
+                }
             }
         }
     }
 
-    /// Chain rule of S1 eq. (67): analytic derivatives of the joints times the workers' columns.
+    /// Chain rule of S1 eq. (67): analytic derivatives of the joints times the workers' columns times the derivatives of the
+    /// inputs with respect to the coupling variables. `columns` belong to the inputs of `layout`.
     pub fn assemble_jacobians<'a>(
         &mut self,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
         columns: &[Column],
+        point: Point<'_>,
     ) {
         for &level in self.level.up_to() {
             self.jacobians[level as usize].fill(0.0);
         }
-        for row in 0..layout.rows.len() {
-            let motion = motion_of(layout, layout.rows[row].joint, outputs);
+        self.motions.clear();
+        let joints = 0..layout.joints.len();
+        self.motions
+            .extend(joints.map(|joint| motion_of(layout, joint, outputs)));
+        self.differentiate_inputs(layout, point);
+        let mut slot = 0;
+        slot = self.add_joints(layout, outputs, columns, slot);
+        self.add_exchanged(layout, outputs, columns, point, slot);
+    }
+
+    fn differentiate_inputs(&mut self, layout: &Layout, point: Point<'_>) {
+        self.gradients.clear();
+        self.gradient_starts.clear();
+        for input in &layout.inputs {
+            self.gradient_starts.push(self.gradients.len());
+            input.gradient(point.w, point.attitudes, &mut self.gradients);
+        }
+        self.gradient_starts.push(self.gradients.len());
+    }
+
+    /// In the order of [`visit_entries`].
+    fn add_joints<'a>(
+        &mut self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64],
+        columns: &[Column],
+        mut slot: usize,
+    ) -> usize {
+        for (number, joint) in layout.joints.iter().enumerate() {
             for end in End::BOTH {
-                self.add_end(layout, row, end, &motion, columns);
+                let bound = &joint.ends[end as usize];
+                let own = outputs(bound.subsystem);
+                for input in layout.input_range(bound.subsystem) {
+                    if columns[input].derivatives.is_empty() {
+                        continue;
+                    }
+                    let change = bound.change(own, &columns[input].derivatives);
+                    for condition in joint.joint.conditions() {
+                        let response = self.level.up_to().iter().map(|&level| {
+                            condition.change(level, &self.motions[number], end, &change)
+                        });
+                        let mut responses = [0.0; 3];
+                        responses.iter_mut().zip(response).for_each(|(r, v)| *r = v);
+                        slot = self.spread(input, responses, slot);
+                    }
+                }
+            }
+        }
+        slot
+    }
+
+    fn add_exchanged<'a>(
+        &mut self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64],
+        columns: &[Column],
+        point: Point<'_>,
+        mut slot: usize,
+    ) {
+        for exchanged in &layout.exchanged {
+            let own = outputs(exchanged.subsystem);
+            for _ in 0..exchanged.len() {
+                self.add(slot, [1.0; 3]);
+                slot += 1;
+            }
+            for input in layout.input_range(exchanged.subsystem) {
+                let column = &columns[input].derivatives;
+                if column.is_empty() {
+                    continue;
+                }
+                let change = exchanged.change(own, point.attitudes, point.w, column);
+                for component in 0..exchanged.len() {
+                    slot = self.spread(input, [-change[component]; 3], slot);
+                }
             }
         }
     }
 
-    fn add_end(
-        &mut self,
-        layout: &Layout,
-        row: usize,
-        end: End,
-        motion: &Motion,
-        columns: &[Column],
-    ) {
-        let condition = layout.rows[row].condition;
-        let BoundJoint { law, ends, .. } = layout.joint_of(row);
-        let bound = &ends[end as usize];
-        let own = layout.input_range(bound.subsystem);
-        for (input, column) in layout.inputs[own.clone()].iter().zip(&columns[own]) {
-            for &level in self.level.up_to() {
-                let mut response = 0.0;
-                for &of in level.up_to() {
-                    for (component, &place) in bound.outputs[of as usize].iter().enumerate() {
-                        let gradient = law.gradient(condition, level, motion, end, of, component);
-                        response += gradient * column.derivatives[place];
-                    }
-                }
-                for &(variable, factor) in &input.combination {
-                    self.jacobians[level as usize][(row, variable)] += response * factor;
-                }
-            }
+    /// Adds the responses of one row to one input, one for each level, to the entries of the variables behind the input.
+    fn spread(&mut self, input: usize, responses: [f64; 3], slot: usize) -> usize {
+        let gradient = self.gradient_starts[input]..self.gradient_starts[input + 1];
+        let next = slot + gradient.len();
+        for (slot, factor) in (slot..).zip(gradient) {
+            let factor = self.gradients[factor];
+            self.add(slot, responses.map(|response| response * factor));
+        }
+        next
+    }
+
+    fn add(&mut self, slot: usize, values: [f64; 3]) {
+        let entry = self.pattern.entry(slot);
+        for &level in self.level.up_to() {
+            self.jacobians[level as usize][entry] += values[level as usize];
         }
     }
 
     /// Writes `G change` of one level to `shift`.
     pub fn shift(&self, level: Level, change: &[f64], shift: &mut [f64]) {
-        let jacobian = &self.jacobians[level as usize];
-        for (row, shift) in shift.iter_mut().enumerate() {
-            let products = change
-                .iter()
-                .enumerate()
-                .map(|(w, change)| jacobian[(row, w)] * change);
-            *shift = products.sum();
-        }
+        self.pattern
+            .multiply(&self.jacobians[level as usize], change, shift);
     }
 
-    /// Forms `sum_l weight_l g_l` and `sum_l weight_l G_l` over the levels.
+    /// Forms `sum_l weight_l g_l` and `sum_l weight_l G_l` over the levels for the rows of joints; the rows of exchanged
+    /// variables are the same on every level and stay as they are.
     pub fn combine(&mut self, weights: [f64; 3]) {
         self.combined_residual.fill(0.0);
         self.combined_jacobian.fill(0.0);
         for &level in self.level.up_to() {
-            let weight = weights[level as usize];
-            let rows = self
-                .combined_residual
-                .iter_mut()
-                .zip(&self.residuals[level as usize]);
-            rows.for_each(|(sum, g)| *sum += weight * g);
+            let own = |row: usize| match level {
+                _ if row < self.rows => weights[level as usize],
+                Level::Position => 1.0,
+                Level::Velocity | Level::Acceleration => 0.0,
+            };
+            let residual = &self.residuals[level as usize];
+            for (row, (sum, g)) in self.combined_residual.iter_mut().zip(residual).enumerate() {
+                *sum += own(row) * g;
+            }
             let jacobian = &self.jacobians[level as usize];
-            zip!(&mut self.combined_jacobian, jacobian)
-                .for_each(|unzip!(sum, g)| *sum += weight * *g);
+            let sums = self.combined_jacobian.iter_mut().zip(jacobian);
+            for ((sum, g), &row) in sums.zip(self.pattern.rows()) {
+                *sum += own(row) * g;
+            }
         }
     }
 
-    /// `sum_l weight_l g_l`
-    pub fn combined_residual(&self) -> &[f64] {
-        &self.combined_residual
-    }
-
-    /// `sum_l weight_l G_l`
-    pub fn combined_jacobian(&self) -> &Mat<f64> {
-        &self.combined_jacobian
+    /// `sum_l weight_l G_l` and `-sum_l weight_l g_l`, the latter in memory that may be written over.
+    pub fn combined_equation(&mut self) -> (&Pattern, &[f64], &mut [f64]) {
+        for (rhs, g) in self.rhs.iter_mut().zip(&self.combined_residual) {
+            *rhs = -g;
+        }
+        (&self.pattern, &self.combined_jacobian, &mut self.rhs)
     }
 
     /// `G` and `-g` of one level, the latter in memory that may be written over.
-    pub fn level_equation(&mut self, level: Level) -> (&Mat<f64>, &mut [f64]) {
+    pub fn level_equation(&mut self, level: Level) -> (&Pattern, &[f64], &mut [f64]) {
         for (rhs, g) in self.rhs.iter_mut().zip(&self.residuals[level as usize]) {
             *rhs = -g;
         }
-        (&self.jacobians[level as usize], &mut self.rhs)
+        (
+            &self.pattern,
+            &self.jacobians[level as usize],
+            &mut self.rhs,
+        )
+    }
+}
+
+/// Visits row and column of every term of the Jacobian, in the order in which they are assembled.
+fn visit_entries(layout: &Layout, visit: &mut dyn FnMut(usize, usize)) {
+    let mut variables = Vec::new();
+    let mut first_row = 0;
+    for joint in &layout.joints {
+        let conditions = joint.joint.len();
+        for bound in &joint.ends {
+            for input in layout.inputs_of(bound.subsystem) {
+                for row in first_row..first_row + conditions {
+                    variables.clear();
+                    if input.perturbed.is_some() {
+                        input.variables(&mut variables);
+                    }
+                    variables.iter().for_each(|&variable| visit(row, variable));
+                }
+            }
+        }
+        first_row += conditions;
+    }
+    for exchanged in &layout.exchanged {
+        visit_exchanged(layout, exchanged, visit);
+    }
+}
+
+fn visit_exchanged(layout: &Layout, exchanged: &Exchanged, visit: &mut dyn FnMut(usize, usize)) {
+    let own = exchanged.first..exchanged.first + exchanged.len();
+    own.clone().for_each(|variable| visit(variable, variable));
+    let mut variables = Vec::new();
+    let perturbed = layout.inputs_of(exchanged.subsystem).iter();
+    for input in perturbed.filter(|input| input.perturbed.is_some()) {
+        variables.clear();
+        input.variables(&mut variables);
+        for row in own.clone() {
+            variables.iter().for_each(|&variable| visit(row, variable));
+        }
     }
 }
 
@@ -174,14 +309,7 @@ pub fn motion_of<'a>(
     joint: usize,
     outputs: impl Fn(usize) -> &'a [f64],
 ) -> Motion {
-    let mut motion = Motion::default();
-    for (motion, end) in motion.iter_mut().zip(&layout.joints[joint].ends) {
-        let values = outputs(end.subsystem);
-        for (motion, places) in motion.iter_mut().zip(&end.outputs) {
-            for (component, &place) in motion.iter_mut().zip(places) {
-                *component = values[place];
-            }
-        }
-    }
-    motion
+    let ends = &layout.joints[joint].ends;
+    ends.each_ref()
+        .map(|end| end.motion(outputs(end.subsystem)))
 }

@@ -1,71 +1,75 @@
-//! Two points that coincide.
+//! Two points that coincide, component by component.
 
-use super::{End, Joint, Level, Motion};
+use linchpin_proto::joint_load::{End, JointLaw, Law, Reads};
+use nalgebra::Vector3;
 
-/// The atpoint joint, a ball joint in space and a hinge in the plane (S1 eqs. 28 to 36):
+use super::Condition;
+use super::motion::{Jet, MarkerChange, Motion};
+
+/// One component of the atpoint joint (S1 eqs. 28 to 36), which is a ball joint in space and a hinge in the plane:
 ///
-/// `g = r_a - r_b = 0` (m), the positions of the two markers in the inertial frame, likewise on velocity and acceleration
-/// level: the rates of the marker points, which contain the rotation of their bodies. The multipliers (N) are the
-/// components of the force on `a` in the inertial frame; `b` gets the opposite one (S1 eq. 30). Both act at the marker
-/// points, so their moments about the centres of mass are the workers' part. No orientation is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AtPoint {
-    /// Two rows.
-    InPlane,
-    /// Three rows.
-    InSpace,
+/// `g = (p_a - p_b) . d = 0` (m) with the points `p = r + T s` of both markers and a fixed direction `d` of the inertial
+/// frame; on the other levels the rates of the points, which contain the rotation of their bodies. The multiplier (N) is the
+/// component along `d` of the force on `a` at `p_a`; `b` gets the opposite one at `p_b` (S1 eq. 30). Where the points are the
+/// markers themselves, no orientation is read and the load is a force of fixed direction.
+///
+/// While the joint is open, the two forces act at two points and form a couple; it is as small as the opening.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct AtPoint {
+    law: JointLaw,
+    direction: Vector3<f64>,
 }
-
-/// Components of a point.
-const COMPONENTS: [usize; 3] = [0, 1, 2];
 
 impl AtPoint {
-    fn dimension(self) -> usize {
-        match self {
-            Self::InPlane => 2,
-            Self::InSpace => 3,
+    /// Between points `points` of both markers (m, in their axes), along the unit vector `direction` in inertial axes.
+    pub fn new(points: [Vector3<f64>; 2], direction: Vector3<f64>) -> Self {
+        let law = Law::AtPoint { direction };
+        Self {
+            law: JointLaw { law, points },
+            direction,
         }
     }
 }
 
-impl Joint for AtPoint {
-    fn rows(&self) -> &'static [&'static str] {
-        &["x", "y", "z"][..self.dimension()]
+impl Condition for AtPoint {
+    fn law(&self) -> Option<&JointLaw> {
+        Some(&self.law)
     }
 
-    fn reads(&self) -> &'static [usize] {
-        &COMPONENTS[..self.dimension()]
+    fn reads(&self, end: End) -> Reads {
+        self.law.condition_reads(end)
     }
 
-    fn condition(&self, row: usize, level: Level, motion: &Motion) -> f64 {
-        motion[0][level as usize][row] - motion[1][level as usize][row]
+    fn factors(&self, motion: &Motion) -> [Jet; 2] {
+        [
+            distance(&self.law.points, motion),
+            Jet::constant(self.direction),
+        ]
     }
 
-    fn gradient(
-        &self,
-        row: usize,
-        level: Level,
-        _: &Motion,
-        end: End,
-        of: Level,
-        component: usize,
-    ) -> f64 {
-        if level == of && row == component {
-            self.load(row, end, component)
-        } else {
-            0.0
-        }
+    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
+        [
+            distance_change(&self.law.points, motion, end, change),
+            Jet::constant(Vector3::zeros()),
+        ]
     }
+}
 
-    fn loads(&self) -> &'static [usize] {
-        self.reads()
-    }
+/// `p_a - p_b` with its derivatives.
+pub(super) fn distance(points: &[Vector3<f64>; 2], [a, b]: &Motion) -> Jet {
+    a.point(&points[0]) - b.point(&points[1])
+}
 
-    fn load(&self, row: usize, end: End, component: usize) -> f64 {
-        match end {
-            _ if row != component => 0.0,
-            End::A => 1.0,
-            End::B => -1.0,
-        }
+/// Change of [`distance`] under a small change of the motion at one end.
+pub(super) fn distance_change(
+    points: &[Vector3<f64>; 2],
+    motion: &Motion,
+    end: End,
+    change: &MarkerChange,
+) -> Jet {
+    let moved = motion[end as usize].point_change(&points[end as usize], change);
+    match end {
+        End::A => moved,
+        End::B => -moved,
     }
 }

@@ -1,10 +1,28 @@
-//! Kinds of joints: each gives coupling conditions and loads; the rest of the master sees rows only.
+//! Joints: rows of scalar conditions between two markers; the rest of the master sees rows only.
+//!
+//! * [`rigid_link`], [`atpoint`], [`inplane`], [`perpendicular`]: one fundamental joint each;
+//! * [`composite`]: what users name in a scene;
+//! * [`motion`]: what the conditions are evaluated on;
+//! * the loads: [`linchpin_proto::joint_load`], shared with the workers.
 
-mod atpoint;
-mod rigid_link;
+pub mod atpoint;
+pub mod composite;
+pub mod inplane;
+pub mod motion;
+pub mod perpendicular;
+pub mod rigid_link;
 
 pub use atpoint::AtPoint;
+pub use composite::Kind;
+pub use inplane::InPlane;
+pub use linchpin_proto::joint_load::End;
+pub use motion::{MarkerChange, MarkerMotion, Motion};
+pub use perpendicular::Perpendicular;
 pub use rigid_link::RigidLink;
+
+use linchpin_proto::joint_load::{JointLaw, Reads};
+use motion::Jet;
+use nalgebra::Vector3;
 
 /// Time derivative of a coupling condition: `g`, `g'` or `g''`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -36,61 +54,114 @@ impl Level {
     }
 }
 
-/// One of the two bodies of a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum End {
-    /// The first body; the multiplier acts on it in its own direction.
-    A,
-    /// The second body; the multiplier acts on it in the opposite direction.
-    B,
+/// One scalar condition `g = u . w` of two vectors that the markers determine, on every level.
+pub trait Condition: Send + Sync {
+    /// The law of the load; `None` for the link between scalar markers, whose load is `+lambda` on a, `-lambda` on b.
+    fn law(&self) -> Option<&JointLaw>;
+
+    /// What the condition reads of the marker at `end`.
+    fn reads(&self, end: End) -> Reads;
+
+    /// `u` and `w` with their time derivatives.
+    fn factors(&self, motion: &Motion) -> [Jet; 2];
+
+    /// Change of [`Condition::factors`] under a small change of the motion at one end.
+    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2];
+
+    /// `g`, `g'` or `g''`.
+    fn value(&self, level: Level, motion: &Motion) -> f64 {
+        let [u, w] = self.factors(motion);
+        u.dot(&w, level)
+    }
+
+    /// Change of [`Condition::value`] under a small change of the motion at one end.
+    fn change(&self, level: Level, motion: &Motion, end: End, change: &MarkerChange) -> f64 {
+        let [u, w] = self.factors(motion);
+        let [du, dw] = self.factor_changes(motion, end, change);
+        du.dot(&w, level) + u.dot(&dw, level)
+    }
+
+    /// Size of the terms that cancel in [`Condition::value`] while the condition holds, for judging what is rounding:
+    /// lengths and rates of positions; of axes 1 and rates of turning.
+    fn extent(&self, level: Level, motion: &Motion) -> f64 {
+        let arms = self
+            .law()
+            .map_or([0.0; 2], |law| law.points.map(|s| s.norm()));
+        let sizes = motion.iter().zip(arms).map(|(marker, arm)| {
+            let turning = match level {
+                Level::Position => 1.0,
+                Level::Velocity => marker.omega.norm(),
+                Level::Acceleration => marker.alpha.norm() + marker.omega.norm_squared(),
+            };
+            let moving = match level {
+                Level::Position => marker.pose.position,
+                Level::Velocity => marker.velocity,
+                Level::Acceleration => marker.acceleration,
+            };
+            if self.is_length() {
+                moving.norm() + arm * turning
+            } else {
+                turning
+            }
+        });
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Whether `g` is a length (m); otherwise it is a number.
+    fn is_length(&self) -> bool {
+        true
+    }
 }
 
-impl End {
-    /// Both.
-    pub const BOTH: [Self; 2] = [Self::A, Self::B];
+/// A joint: its conditions, each with the end of its name in result columns.
+pub struct Joint {
+    rows: Vec<(&'static str, Box<dyn Condition>)>,
+    aligned: Vec<[Vector3<f64>; 2]>,
 }
 
-/// Most components of a marker's motion that a joint may read on one level.
-pub const MOST_COMPONENTS: usize = 7;
+impl Joint {
+    fn new(rows: Vec<(&'static str, Box<dyn Condition>)>, aligned: Vec<[Vector3<f64>; 2]>) -> Self {
+        Self { rows, aligned }
+    }
 
-/// Motion of a joint's two markers: `[end][level][component]`, with the components that the joint reads. Levels that
-/// were not asked for are not read.
-pub type Motion = [[[f64; MOST_COMPONENTS]; 3]; 2];
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
 
-/// Largest value on one level of the two markers: the size of the motion.
-pub fn extent(motion: &Motion, level: Level) -> f64 {
-    let values = motion.iter().flat_map(|end| end[level as usize]);
-    values.map(f64::abs).fold(0.0, f64::max)
-}
+    /// Whether it demands nothing: no joint of [`composite`] does.
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
 
-/// The law of a joint: its conditions on every level, one for each row, and the loads of their multipliers.
-pub trait Joint: Send + Sync {
-    /// Names of the rows in result columns; a joint with a single row has the empty name.
-    fn rows(&self) -> &'static [&'static str];
+    /// End of the name of a row in result columns; empty if it is the only one.
+    pub fn name(&self, row: usize) -> &'static str {
+        self.rows[row].0
+    }
 
-    /// The components of the markers' motion that the conditions read, as places in the lists of
-    /// [`Marker`](linchpin_proto::v1::Marker).
-    fn reads(&self) -> &'static [usize];
+    /// The condition of a row.
+    pub fn condition(&self, row: usize) -> &dyn Condition {
+        &*self.rows[row].1
+    }
 
-    /// `g`, `g'` or `g''` of one row from the motion of the two markers.
-    fn condition(&self, row: usize, level: Level, motion: &Motion) -> f64;
+    /// All conditions.
+    pub fn conditions(&self) -> impl Iterator<Item = &dyn Condition> {
+        self.rows.iter().map(|(_, condition)| &**condition)
+    }
 
-    /// Derivative of [`Joint::condition`] with respect to `motion[end][of][component]`.
-    fn gradient(
-        &self,
-        row: usize,
-        level: Level,
-        motion: &Motion,
-        end: End,
-        of: Level,
-        component: usize,
-    ) -> f64;
+    /// What the joint reads of the marker at `end`.
+    pub fn reads(&self, end: End) -> Reads {
+        let reads = self.conditions().map(|condition| condition.reads(end));
+        reads.fold(Reads::default(), |all, one| Reads {
+            position: all.position || one.position,
+            rotation: all.rotation || one.rotation,
+        })
+    }
 
-    /// The components of the load on the markers, as places in [`Marker::load`](linchpin_proto::v1::Marker::load).
-    fn loads(&self) -> &'static [usize];
-
-    /// Load on the marker at `end`, component number `component` of [`Joint::loads`], for a multiplier of 1 in `row`.
-    fn load(&self, row: usize, end: End, component: usize) -> f64;
+    /// Axes of markers a and b that have to point to the same side: the conditions hold for the opposite side as well.
+    pub fn aligned(&self) -> &[[Vector3<f64>; 2]] {
+        &self.aligned
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,10 @@
 //! Two masses on one axis that keep together.
 
-use super::{End, Joint, Level, Motion};
+use linchpin_proto::joint_load::{End, JointLaw, Reads};
+use nalgebra::Vector3;
+
+use super::Condition;
+use super::motion::{Jet, MarkerChange, Motion};
 
 /// The massless rigid link between two scalar markers (S1 eq. 1):
 ///
@@ -9,35 +13,33 @@ use super::{End, Joint, Level, Motion};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RigidLink;
 
-impl Joint for RigidLink {
-    fn rows(&self) -> &'static [&'static str] {
-        &[""]
+impl Condition for RigidLink {
+    fn law(&self) -> Option<&JointLaw> {
+        None
     }
 
-    fn reads(&self) -> &'static [usize] {
-        &[0]
-    }
-
-    fn condition(&self, _: usize, level: Level, motion: &Motion) -> f64 {
-        motion[1][level as usize][0] - motion[0][level as usize][0]
-    }
-
-    fn gradient(&self, _: usize, level: Level, _: &Motion, end: End, of: Level, _: usize) -> f64 {
-        match end {
-            _ if level != of => 0.0,
-            End::A => -1.0,
-            End::B => 1.0,
+    fn reads(&self, _: End) -> Reads {
+        Reads {
+            position: true,
+            rotation: false,
         }
     }
 
-    fn loads(&self) -> &'static [usize] {
-        &[0]
+    fn factors(&self, [a, b]: &Motion) -> [Jet; 2] {
+        let origin = Vector3::zeros();
+        [b.point(&origin) - a.point(&origin), axis()]
     }
 
-    fn load(&self, _: usize, end: End, _: usize) -> f64 {
-        match end {
-            End::A => 1.0,
-            End::B => -1.0,
-        }
+    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
+        let moved = motion[end as usize].point_change(&Vector3::zeros(), change);
+        let moved = match end {
+            End::A => -moved,
+            End::B => moved,
+        };
+        [moved, Jet::constant(Vector3::zeros())]
     }
+}
+
+fn axis() -> Jet {
+    Jet::constant(Vector3::x())
 }

@@ -5,6 +5,15 @@ use crate::error::RunError;
 /// Why the macro-step map of a scene could not be had.
 #[derive(Debug, thiserror::Error)]
 pub enum ProbeError {
+    /// The method remembers more than multipliers.
+    #[error(
+        "\"{name}\" exchanges motions or signals, which the method remembers besides the multipliers: there is no macro-step \
+         map of the states and multipliers alone; use a map by simulation"
+    )]
+    Exchanges {
+        /// The joint or connection.
+        name: String,
+    },
     /// The co-simulation could not start or failed within its first steps.
     #[error(transparent)]
     Run(#[from] RunError),

@@ -1,6 +1,6 @@
 //! Stops a run that diverges.
 
-use crate::coupling::layout::Layout;
+use crate::coupling::layout::{self, Layout};
 use crate::error::RunError;
 use crate::results::Row;
 use crate::time::MacroStep;
@@ -96,7 +96,7 @@ impl Guard {
     ) -> Result<(), RunError> {
         for joint in &layout.joints {
             for end in &joint.ends {
-                for &place in &end.outputs[0] {
+                for &place in end.coordinates() {
                     let position = row.output(end.subsystem, place);
                     self.largest_motion = self.largest_motion.max(position.abs());
                 }
@@ -104,13 +104,19 @@ impl Guard {
         }
         for number in 0..layout.rows.len() {
             let opening = row.residuals(number)[0].abs();
-            if opening > self.most_opening * self.largest_motion {
+            let layout::Row { joint, condition } = layout.rows[number];
+            let motion = if layout.joints[joint].joint.condition(condition).is_length() {
+                self.largest_motion
+            } else {
+                1.0
+            };
+            if opening > self.most_opening * motion {
                 return Err(RunError::Diverged {
                     t: step.end,
                     step: step.length,
                     joint: layout.joint_of(number).name.clone(),
                     opening,
-                    motion: self.largest_motion,
+                    motion,
                 });
             }
         }

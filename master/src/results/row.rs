@@ -41,9 +41,8 @@ impl Row {
         let ends = joints.iter().flat_map(|joint| &joint.ends);
         let positions = ends
             .flat_map(|end| {
-                end.outputs[0]
-                    .iter()
-                    .map(|place| first_outputs[end.subsystem] + place)
+                let first = first_outputs[end.subsystem];
+                end.positions().map(move |place| first + place)
             })
             .collect();
         let rows = 0..parts.layout.rows.len();
@@ -83,10 +82,11 @@ impl Row {
             let motion = motion_of(&parts.layout, row.joint, |s| {
                 parts.subsystems[s].coupling_values()
             });
-            let law = &parts.layout.joints[row.joint].law;
+            let joint = &parts.layout.joints[row.joint].joint;
+            let condition = joint.condition(row.condition);
             let levels = parts.layout.level.up_to().iter();
             self.values
-                .extend(levels.map(|&level| law.condition(row.condition, level, &motion)));
+                .extend(levels.map(|&level| condition.value(level, &motion)));
         }
     }
 

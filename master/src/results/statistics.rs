@@ -85,7 +85,7 @@ impl Statistics {
             let levels = layout.level.up_to().iter();
             statistics.joints.extend(levels.map(|level| JointResiduals {
                 joint: joint.name.clone(),
-                part: joint.law.rows()[row.condition],
+                part: joint.joint.name(row.condition),
                 level: level.name(),
                 largest: 0.0,
             }));

@@ -4,7 +4,7 @@ use super::error_kind::{Names, SceneErrorKind};
 use super::formula::{Formula, Unit};
 use super::index::Weights;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
-use super::resolved::{Coupling, Increment, Method};
+use super::resolved::{Coupling, Increment, Loads, Method};
 use super::written::Value;
 
 /// The key whose override changes which other keys there are.
@@ -14,7 +14,21 @@ pub(super) const METHOD_KEY: &str = "coupling.method";
 const HIGHEST_DEGREE: usize = 3;
 
 /// Keys that every method has.
-const COMMON: [&str; 4] = ["method", "degree", "macro_step", "increment"];
+const COMMON: [&str; 6] = [
+    "method",
+    "degree",
+    "exchanged_degree",
+    "loads",
+    "macro_step",
+    "increment",
+];
+
+/// Who may evaluate loads whose direction turns.
+const LOADS: [(&str, Loads); 3] = [
+    ("automatic", Loads::Automatic),
+    ("worker", Loads::Worker),
+    ("master", Loads::Master),
+];
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -63,6 +77,10 @@ impl Kind {
     fn default_degree(self) -> usize {
         self.highest_degree().min(1)
     }
+
+    fn default_exchanged_degree(self, degree: usize) -> usize {
+        self.highest_degree().min(degree.max(2))
+    }
 }
 
 /// True for a parameter that some methods have, but not the one of this name.
@@ -102,10 +120,22 @@ pub(super) fn read(
         (Some(field), _) => field.whole(0, highest, problems),
         (None, kind) => kind.map(Kind::default_degree),
     };
+    let exchanged_degree = match (section.get("exchanged_degree"), kind, degree) {
+        (Some(field), ..) => field.whole(0, highest, problems),
+        (None, Some(kind), Some(degree)) => Some(kind.default_exchanged_degree(degree)),
+        (None, ..) => None,
+    };
+    let loads = section
+        .get("loads")
+        .map_or(Some(Loads::Automatic), |field| {
+            field.choice(&LOADS, problems)
+        });
     let method = kind.and_then(|kind| read_method(kind, section, macro_step, problems));
     Some(Coupling {
         method: method?,
         degree: degree?,
+        exchanged_degree: exchanged_degree?,
+        loads: loads?,
         macro_step: macro_step?,
         increment: increment?,
     })

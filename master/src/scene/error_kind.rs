@@ -183,6 +183,16 @@ pub enum SceneErrorKind {
         /// The subsystem.
         subsystem: String,
     },
+    /// A connection with both sides on one subsystem.
+    #[error(
+        "connection {connection:?} has both sides on subsystem {subsystem:?}; it must connect two"
+    )]
+    ConnectedToItself {
+        /// The connection.
+        connection: String,
+        /// The subsystem.
+        subsystem: String,
+    },
     /// An index that the parameters contradict.
     #[error("index {index} of method `{method}` needs {needs}, found {first} and {second}")]
     IndexContradiction {

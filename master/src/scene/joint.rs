@@ -4,13 +4,35 @@ use super::error_kind::{Names, SceneErrorKind};
 use super::names::Registry;
 use super::nearest::nearest;
 use super::reader::{FINITE, Field, Problems, Section};
-use super::resolved::{Joint, JointKind, Side};
+use super::resolved::{Geometry, Joint, JointKind, Side};
 use super::written::Value;
 
-const KEYS: [&str; 5] = ["name", "kind", "a", "b", "multiplier"];
-const KINDS: [(&str, JointKind); 2] = [
+const KEYS: [&str; 11] = [
+    "name",
+    "kind",
+    "a",
+    "b",
+    "point_a",
+    "point_b",
+    "axis_a",
+    "axis_b",
+    "attitude",
+    "angle",
+    "multiplier",
+];
+const KINDS: [(&str, JointKind); 12] = [
     ("rigid-link", JointKind::RigidLink),
     ("atpoint", JointKind::AtPoint),
+    ("inplane", JointKind::InPlane),
+    ("perpendicular", JointKind::Perpendicular),
+    ("universal", JointKind::Universal),
+    ("revolute", JointKind::Revolute),
+    ("cylindrical", JointKind::Cylindrical),
+    ("planar", JointKind::Planar),
+    ("inline", JointKind::Inline),
+    ("orientation", JointKind::Orientation),
+    ("translational", JointKind::Translational),
+    ("weld", JointKind::Weld),
 ];
 
 pub(super) fn read(
@@ -36,7 +58,9 @@ pub(super) fn read(
         Some(field) => read_multipliers(&field, problems).map(Some),
         None => Some(None),
     };
+    let geometry = read_geometry(section, problems);
     let joint = Joint {
+        geometry: geometry?,
         name: name?.to_owned(),
         kind: kind?,
         a: a?,
@@ -52,6 +76,37 @@ pub(super) fn read(
         return None;
     }
     Some(joint)
+}
+
+fn read_geometry(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Geometry> {
+    let mut list = |key: &str| match section.get(key) {
+        Some(field) => read_vector(&field, problems).map(Some),
+        None => Some(None),
+    };
+    let points = [list("point_a"), list("point_b")];
+    let axes = [list("axis_a"), list("axis_b")];
+    let attitude = list("attitude");
+    let angle = match section.get("angle") {
+        Some(field) => field.number(&FINITE, problems).map(Some),
+        None => Some(None),
+    };
+    let [point_a, point_b] = points;
+    let [axis_a, axis_b] = axes;
+    Some(Geometry {
+        points: [point_a?, point_b?],
+        axes: [axis_a?, axis_b?],
+        attitude: attitude?,
+        angle: angle?,
+    })
+}
+
+fn read_vector(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
+    let components = field.items("a list of numbers such as [0.5, 0.0]", problems)?;
+    let numbers = components
+        .iter()
+        .map(|component| component.number(&FINITE, problems));
+    let numbers: Vec<Option<f64>> = numbers.collect();
+    numbers.into_iter().collect()
 }
 
 /// One number, or a list of them.

@@ -5,6 +5,7 @@
 //! place, the value found, what is allowed, and the nearest name. [`warnings`] tells which sound scenes are known to be
 //! unstable.
 
+mod connection;
 mod coupling;
 mod error;
 mod error_kind;
@@ -35,8 +36,9 @@ pub use error_kind::{Names, SceneErrorKind};
 pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
-    Axis, Calls, Case, ConvergeSettings, Coupling, Increment, Index, Joint, JointKind, Method,
-    Output, Reference, RunSettings, Served, Side, StabilitySettings, Subsystem,
+    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index, Joint,
+    JointKind, Loads, Method, Output, Reference, RunSettings, Served, Side, StabilitySettings,
+    Subsystem,
 };
 pub use stability_rules::{Warning, warnings};
 pub use subsystem::is_worker_address;
@@ -58,6 +60,8 @@ pub struct Scene {
     pub subsystems: Vec<Subsystem>,
     /// The constraints between the subsystems.
     pub joints: Vec<Joint>,
+    /// The signals between the subsystems.
+    pub connections: Vec<Connection>,
     /// What is recorded.
     pub output: Output,
     /// How the run treats its workers.

@@ -16,7 +16,7 @@ use super::written::{Entry, Node, Table, Value, Written};
 /// The longest key of a scene has four parts; a longer one is a mistake.
 const MOST_PARTS: usize = 8;
 /// Tables that stand in a list, one for each `[[...]]`.
-const LISTS: [&str; 3] = ["subsystem", "joint", "case"];
+const LISTS: [&str; 4] = ["subsystem", "joint", "connection", "case"];
 /// Written before an override where it is shown as a place.
 const OPTION: &str = "--set ";
 

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::Scene;
+use super::connection;
 use super::coupling;
 use super::error::{SceneError, SceneErrors};
 use super::error_kind::SceneErrorKind;
@@ -14,11 +15,12 @@ use super::subsystem;
 use super::sweeps;
 use super::written::{Value, Written};
 
-const SECTIONS: [&str; 9] = [
+const SECTIONS: [&str; 10] = [
     "scene",
     "coupling",
     "subsystem",
     "joint",
+    "connection",
     "output",
     "run",
     "case",
@@ -75,6 +77,11 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     let joints = collect(&joint_tables, |table| {
         joint::read(table, &subsystem_names, problems)
     });
+    let connection_tables = sections(&root, "connection", problems);
+    Registry::collect("connection", &connection_tables, None, problems);
+    let connections = collect(&connection_tables, |table| {
+        connection::read(table, &subsystem_names, problems)
+    });
     let output = read_output(&root, &subsystem_names, problems);
     let run = read_run(&root, problems);
     let case_tables = sections(&root, "case", problems);
@@ -92,6 +99,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         coupling: coupling?,
         subsystems: subsystems?,
         joints: joints?,
+        connections: connections?,
         output: output?,
         run: run?,
         cases: cases?,
@@ -158,6 +166,7 @@ fn sections<'w>(
     let allowed = match key {
         "subsystem" => "tables headed [[subsystem]]",
         "joint" => "tables headed [[joint]]",
+        "connection" => "tables headed [[connection]]",
         _ => "tables headed [[case]]",
     };
     let items = root

@@ -6,6 +6,7 @@ use linchpin_proto::v1;
 use serde::Serialize;
 
 use super::overrides::Override;
+pub use crate::joint::Kind as JointKind;
 
 /// How the subsystems are coupled.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,11 @@ pub struct Coupling {
     pub method: Method,
     /// Degree k of the Lagrange polynomials of the coupling variables, 0 to 3. Default 1, for the explicit method 0.
     pub degree: usize,
+    /// Degree of the polynomials of exchanged body variables and connected signals, 0 to 3. Default 2, or the degree of the
+    /// multipliers if that is higher; for the explicit method 0.
+    pub exchanged_degree: usize,
+    /// Who evaluates loads whose direction turns with the bodies. Default automatic.
+    pub loads: Loads,
     /// Macro step H in s, greater than 0 and at most the simulated time.
     pub macro_step: f64,
     /// Increments of the finite differences. Default automatic.
@@ -117,6 +123,17 @@ pub enum Increment {
     Relative(f64),
 }
 
+/// Who evaluates a load whose direction turns with the bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loads {
+    /// The worker if it can, otherwise the master.
+    Automatic,
+    /// The worker, at the pose that its marker has at every instant (S1 eqs. 42, 45, 51, 54).
+    Worker,
+    /// The master: workers get force and moment as polynomials.
+    Master,
+}
+
 /// Who serves a subsystem.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Served {
@@ -154,15 +171,6 @@ pub struct Subsystem {
     pub calls: Calls,
 }
 
-/// What a joint demands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointKind {
-    /// Position of b minus position of a = 0; +lambda acts on a, -lambda on b.
-    RigidLink,
-    /// The two marker points coincide; the multipliers are the force on a in the inertial frame.
-    AtPoint,
-}
-
 /// One end of a joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Side {
@@ -183,8 +191,34 @@ pub struct Joint {
     pub a: Side,
     /// The second side, on another subsystem.
     pub b: Side,
-    /// Multipliers at the start, one for each condition of the joint, in N; absent: computed.
+    /// Where on the markers it holds.
+    pub geometry: Geometry,
+    /// Multipliers at the start, one for each condition of the joint, in N or N m; absent: computed.
     pub multiplier: Option<Vec<f64>>,
+}
+
+/// Points and axes of a joint as the scene gives them; how many components they must have depends on the markers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Geometry {
+    /// Points in the axes of markers a and b in m; default: the markers themselves.
+    pub points: [Option<Vec<f64>>; 2],
+    /// Axes in the axes of markers a and b, of any length.
+    pub axes: [Option<Vec<f64>>; 2],
+    /// Attitude of marker a in the axes of marker b that the joint keeps: in space a quaternion (w, x, y, z).
+    pub attitude: Option<Vec<f64>>,
+    /// The same in the plane: an angle in rad.
+    pub angle: Option<f64>,
+}
+
+/// An output of one subsystem that is an input of another.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Connection {
+    /// Its name, unique among subsystems, joints and connections.
+    pub name: String,
+    /// Place in `Scene::subsystems`, and the output.
+    pub from: (usize, String),
+    /// Place in `Scene::subsystems`, and the input.
+    pub to: (usize, String),
 }
 
 /// What is recorded.

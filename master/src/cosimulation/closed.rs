@@ -1,0 +1,68 @@
+//! Refuses a scene whose joints are open or turned over at the start.
+
+use crate::coupling::layout::Layout;
+use crate::coupling::system::motion_of;
+use crate::error::RunError;
+use crate::joint::{Level, Motion};
+use crate::scene::Scene;
+
+/// Joints that are open by less than this share of the motion are closed up to rounding.
+const CLOSED: f64 = 1e-9;
+
+/// Checks all joints on the levels that the method demands below the acceleration. `outputs` are the coupling outputs.
+pub(super) fn check(scene: &Scene, layout: &Layout, outputs: &[Vec<f64>]) -> Result<(), RunError> {
+    for number in 0..layout.rows.len() {
+        check_row(scene, layout, outputs, number)?;
+    }
+    for (number, joint) in layout.joints.iter().enumerate() {
+        let motion = motion_of(layout, number, |subsystem| &outputs[subsystem]);
+        if let Some(turned) = joint
+            .joint
+            .aligned()
+            .iter()
+            .find(|axes| opposed(&motion, axes))
+        {
+            let [a, b] = turned.each_ref().map(|axis| axis.as_slice());
+            let message = format!(
+                "the joint is turned over at t = {} s: axis {a:?} of marker a and axis {b:?} of marker b point to opposite \
+                 sides",
+                scene.t_start
+            );
+            let help = "turn one of the bodies or reverse an axis of the joint";
+            let key = format!("joint.{}", joint.name);
+            return Err(scene.error(&key, message, Some(help.into())).into());
+        }
+    }
+    Ok(())
+}
+
+fn opposed([a, b]: &Motion, axes: &[nalgebra::Vector3<f64>; 2]) -> bool {
+    let [own, partner] = [a.pose.rotation * axes[0], b.pose.rotation * axes[1]];
+    own.dot(&partner) < 0.0
+}
+
+fn check_row(
+    scene: &Scene,
+    layout: &Layout,
+    outputs: &[Vec<f64>],
+    number: usize,
+) -> Result<(), RunError> {
+    let row = layout.rows[number];
+    let motion = motion_of(layout, row.joint, |subsystem| &outputs[subsystem]);
+    let condition = layout.joints[row.joint].joint.condition(row.condition);
+    let levels = layout.level.up_to().iter();
+    for &level in levels.filter(|level| **level < Level::Acceleration) {
+        let residual = condition.value(level, &motion);
+        if residual.abs() > CLOSED * condition.extent(level, &motion) {
+            let message = format!(
+                "the joint is open at t = {} s: {} is {residual:e}",
+                scene.t_start,
+                layout.column_name(number, &format!("residual.{}", level.name()))
+            );
+            let help = "choose initial values of the two subsystems that meet the joint";
+            let key = format!("joint.{}", scene.joints[row.joint].name);
+            return Err(scene.error(&key, message, Some(help.into())).into());
+        }
+    }
+    Ok(())
+}

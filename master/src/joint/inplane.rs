@@ -1,0 +1,59 @@
+//! A point that stays in a plane.
+
+use linchpin_proto::joint_load::{End, JointLaw, Law, Reads};
+use nalgebra::Vector3;
+
+use super::Condition;
+use super::atpoint::{distance, distance_change};
+use super::motion::{Jet, MarkerChange, Motion};
+
+/// The inplane joint (S1 eqs. 37 to 45); in the plane of a planar scene it keeps a point on a straight line:
+///
+/// `g = (p_a - p_b) . e_b = 0` (m) with the points `p = r + T s` of both markers and the unit normal `e_b` fixed in marker b.
+/// The multiplier (N) is the force on `a` at `p_a` along `e_b`; `b` gets the opposite one at the same point `p_a` (S1 eq. 39),
+/// so forces and moments of the two bodies cancel at any opening.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InPlane {
+    law: JointLaw,
+    normal: Vector3<f64>,
+}
+
+impl InPlane {
+    /// Keeps point `points[0]` of marker a in the plane through `points[1]` of marker b (m, in their axes) whose unit normal
+    /// in the axes of b is `normal`.
+    pub fn new(points: [Vector3<f64>; 2], normal: Vector3<f64>) -> Self {
+        let law = Law::InPlane { normal };
+        Self {
+            law: JointLaw { law, points },
+            normal,
+        }
+    }
+}
+
+impl Condition for InPlane {
+    fn law(&self) -> Option<&JointLaw> {
+        Some(&self.law)
+    }
+
+    fn reads(&self, end: End) -> Reads {
+        self.law.condition_reads(end)
+    }
+
+    fn factors(&self, motion: &Motion) -> [Jet; 2] {
+        [
+            distance(&self.law.points, motion),
+            motion[1].carried(&self.normal),
+        ]
+    }
+
+    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
+        let turned = match end {
+            End::A => Jet::constant(Vector3::zeros()),
+            End::B => motion[1].carried_change(&self.normal, change),
+        };
+        [
+            distance_change(&self.law.points, motion, end, change),
+            turned,
+        ]
+    }
+}

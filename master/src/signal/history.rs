@@ -1,0 +1,292 @@
+//! Values of the coupling variables at past macro points.
+
+use linchpin_proto::polynomial::Polynomial;
+use linchpin_proto::v1::Signal;
+use nalgebra::{UnitQuaternion, Vector3};
+
+use super::attitude::{attitude, rotation_vector};
+
+/// Highest degree `k` of the polynomials of coupling variables.
+pub const MAX_DEGREE: usize = 3;
+
+/// What the variables are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Variables {
+    /// Degree of the polynomial of each variable.
+    pub degrees: Vec<usize>,
+    /// First of the three variables of each rotation vector.
+    pub rotations: Vec<usize>,
+}
+
+/// Values of coupling variables at the last macro points, newest first.
+///
+/// Times are relative to the present macro point `T_N`, so they do not lose digits as time goes on. Rotation vectors are
+/// relative to the attitude at `T_N`; their past values are carried over to the new attitude with every step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct History {
+    variables: Variables,
+    highest: usize,
+    times: Vec<f64>,
+    values: Vec<Vec<f64>>,
+    attitudes: Vec<UnitQuaternion<f64>>,
+}
+
+/// Which polynomial over the next step.
+#[derive(Debug, Clone, Copy)]
+pub enum Curve<'a> {
+    /// Through `T_N, T_{N-1}, ...`: degree `min(k, N)`, S1 eq. (56).
+    Extrapolated,
+    /// Through these values of all variables at the end of the step and `T_N, ...`: degree `min(k, N + 1)`, S1 eq. (69). At
+    /// the start it has one node more than the extrapolation: that keeps the order of the multipliers.
+    Interpolated(&'a [f64]),
+}
+
+impl History {
+    /// Variables that have the values `initial` at the first macro point; rotation vectors relative to `attitudes`.
+    pub fn new(variables: Variables, initial: &[f64], attitudes: Vec<UnitQuaternion<f64>>) -> Self {
+        Self::established(variables, 0.0, &[initial.to_vec()], attitudes)
+    }
+
+    /// Variables at several equidistant macro points, newest first: a history as it is after a start.
+    ///
+    /// `values[p][v]` is variable `v` at `T_N - p step`; points that no polynomial reaches are not looked at.
+    pub fn established(
+        variables: Variables,
+        step: f64,
+        values: &[Vec<f64>],
+        attitudes: Vec<UnitQuaternion<f64>>,
+    ) -> Self {
+        let highest = variables.degrees.iter().copied().max().unwrap_or(0);
+        let mut kept = Vec::with_capacity(highest + 1);
+        kept.extend(values.iter().take(highest + 1).cloned());
+        let mut times = Vec::with_capacity(highest + 1);
+        times.extend((0..kept.len()).map(|point| -(point as f64) * step));
+        Self {
+            variables,
+            highest,
+            times,
+            values: kept,
+            attitudes,
+        }
+    }
+
+    /// Number of variables.
+    pub fn variables(&self) -> usize {
+        self.variables.degrees.len()
+    }
+
+    /// Values at the newest macro point.
+    pub fn newest(&self) -> &[f64] {
+        &self.values[0]
+    }
+
+    /// Attitudes at the newest macro point, to which rotation vectors are relative.
+    pub fn attitudes(&self) -> &[UnitQuaternion<f64>] {
+        &self.attitudes
+    }
+
+    /// Moves on by one macro step of the given length; `values` belong to its end.
+    pub fn push(&mut self, length: f64, values: &[f64]) {
+        for time in &mut self.times {
+            *time -= length;
+        }
+        let mut newest = if self.values.len() > self.highest {
+            self.times.pop();
+            self.values.pop().unwrap_or_default()
+        } else {
+            Vec::with_capacity(values.len())
+        };
+        newest.clear();
+        newest.extend_from_slice(values);
+        self.times.insert(0, 0.0);
+        self.values.insert(0, newest);
+        for rotation in 0..self.variables.rotations.len() {
+            self.move_reference(rotation);
+        }
+    }
+
+    /// Makes the newest value of a rotation vector the attitude that all are relative to.
+    fn move_reference(&mut self, rotation: usize) {
+        let first = self.variables.rotations[rotation];
+        let old = self.attitudes[rotation];
+        let newest = attitude(&old, &vector_at(&self.values[0], first));
+        let mut later = Vector3::zeros();
+        for (point, values) in self.values.iter_mut().enumerate() {
+            let mut phi = Vector3::zeros();
+            if point > 0 {
+                let past = attitude(&old, &vector_at(values, first));
+                phi = rotation_vector(&newest, &past, &later);
+            }
+            values[first..first + 3].copy_from_slice(phi.as_slice());
+            later = phi;
+        }
+        self.attitudes[rotation] = newest;
+    }
+
+    /// Number of past nodes of a variable's curve, and its value at the end of the step if that is a node.
+    fn nodes(&self, variable: usize, curve: Curve<'_>) -> (usize, Option<f64>) {
+        let most = self.variables.degrees[variable] + 1;
+        match curve {
+            Curve::Extrapolated => (self.times.len().min(most), None),
+            Curve::Interpolated(ends) => {
+                let nodes = (self.times.len() + 1).min(most);
+                (nodes - 1, Some(ends[variable]))
+            }
+        }
+    }
+
+    /// The signal of `sum_i factor_i variable_i`, all of one degree.
+    pub fn signal(
+        &self,
+        combination: &[(usize, f64)],
+        curve: Curve<'_>,
+        step: f64,
+        signal: &mut Signal,
+    ) {
+        signal.nodes.clear();
+        signal.values.clear();
+        let leading = combination.first().map_or(0, |&(variable, _)| variable);
+        let (past, _) = self.nodes(leading, curve);
+        if let Curve::Interpolated(ends) = curve {
+            signal.nodes.push(step);
+            signal.values.push(combine(combination, ends));
+        }
+        signal.nodes.extend_from_slice(&self.times[..past]);
+        let values = self.values[..past].iter();
+        signal
+            .values
+            .extend(values.map(|values| combine(combination, values)));
+    }
+
+    /// Value of one variable's curve at `tau` after the present macro point; `step` is the length of the step.
+    ///
+    /// Not a number if the history is not finite; that is found when the multipliers are checked.
+    pub fn value(&self, variable: usize, curve: Curve<'_>, step: f64, tau: f64) -> f64 {
+        let (past, end) = self.nodes(variable, curve);
+        let (mut nodes, mut values) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
+        let mut len = 0;
+        if let Some(end) = end {
+            (nodes[0], values[0]) = (step, end);
+            len = 1;
+        }
+        for (time, past) in self.times[..past].iter().zip(&self.values) {
+            (nodes[len], values[len]) = (*time, past[variable]);
+            len += 1;
+        }
+        Polynomial::through(&nodes[..len], &values[..len])
+            .map_or(f64::NAN, |polynomial| polynomial.value(tau))
+    }
+
+    /// Value at `tau` of the polynomial of a variable's interpolation that is 1 at the end of the step and 0 at its other
+    /// nodes.
+    pub fn end_basis(&self, variable: usize, step: f64, tau: f64) -> f64 {
+        let most = self.variables.degrees[variable] + 1;
+        let past = (self.times.len() + 1).min(most) - 1;
+        let factors = self.times[..past].iter();
+        factors.map(|time| (tau - time) / (step - time)).product()
+    }
+}
+
+/// Three values in a row as a vector.
+pub fn vector_at(values: &[f64], first: usize) -> Vector3<f64> {
+    Vector3::new(values[first], values[first + 1], values[first + 2])
+}
+
+/// `sum_i factor_i values_i`
+pub fn combine(combination: &[(usize, f64)], values: &[f64]) -> f64 {
+    combination
+        .iter()
+        .map(|&(variable, factor)| factor * values[variable])
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FIRST: [(usize, f64); 1] = [(0, 1.0)];
+
+    fn of_degrees(degrees: &[usize]) -> Variables {
+        Variables {
+            degrees: degrees.to_vec(),
+            rotations: Vec::new(),
+        }
+    }
+
+    fn value_at(signal: &Signal, tau: f64) -> f64 {
+        Polynomial::from_signal(signal).unwrap().value(tau)
+    }
+
+    #[test]
+    fn degrees_grow_at_the_start() {
+        let mut history = History::new(of_degrees(&[2]), &[1.0], Vec::new());
+        let mut signal = Signal::default();
+        let mut nodes = Vec::new();
+        for n in 0..4 {
+            history.signal(&FIRST, Curve::Extrapolated, 0.1, &mut signal);
+            let extrapolation = signal.nodes.len();
+            history.signal(&FIRST, Curve::Interpolated(&[0.0]), 0.1, &mut signal);
+            nodes.push((extrapolation, signal.nodes.len()));
+            history.push(0.1, &[n as f64]);
+        }
+        assert_eq!(nodes, [(1, 2), (2, 3), (3, 3), (3, 3)]);
+    }
+
+    #[test]
+    fn constant_interpolation_holds_the_end_value() {
+        let history = History::new(of_degrees(&[0]), &[1.0], Vec::new());
+        let mut signal = Signal::default();
+        history.signal(&FIRST, Curve::Interpolated(&[7.0]), 0.1, &mut signal);
+        assert_eq!(value_at(&signal, 0.03), 7.0);
+        assert_eq!(history.end_basis(0, 0.1, 0.03), 1.0);
+    }
+
+    #[test]
+    fn a_parabola_over_unequal_steps_is_continued_exactly() {
+        let parabola = |t: f64| 1.0 + 2.0 * t - 3.0 * t * t;
+        let mut history = History::new(of_degrees(&[0, 2]), &[0.0, parabola(0.0)], Vec::new());
+        let mut t = 0.0;
+        for length in [0.1, 0.25, 0.05] {
+            t += length;
+            history.push(length, &[t, parabola(t)]);
+        }
+        let mut signal = Signal::default();
+        history.signal(&[(1, 2.0)], Curve::Extrapolated, 0.3, &mut signal);
+        assert!((value_at(&signal, 0.3) - 2.0 * parabola(t + 0.3)).abs() < 1e-13);
+        let value = history.value(1, Curve::Extrapolated, 0.3, 0.2);
+        assert!((value - parabola(t + 0.2)).abs() < 1e-13);
+        assert_eq!(history.value(0, Curve::Extrapolated, 0.3, 0.2), t);
+        let ends = [0.0, parabola(t + 0.3)];
+        let curve = Curve::Interpolated(&ends);
+        history.signal(&[(1, 1.0)], curve, 0.3, &mut signal);
+        assert!((value_at(&signal, 0.2) - parabola(t + 0.2)).abs() < 1e-13);
+        assert!((history.value(1, curve, 0.3, 0.2) - parabola(t + 0.2)).abs() < 1e-13);
+        let raised = [0.0, ends[1] + 1.0];
+        let shape = history.value(1, Curve::Interpolated(&raised), 0.3, 0.2) - parabola(t + 0.2);
+        assert!((history.end_basis(1, 0.3, 0.2) - shape).abs() < 1e-13);
+    }
+
+    /// A body that turns about a fixed axis at a constant rate, through many turns.
+    #[test]
+    fn a_steady_turn_is_continued_through_any_attitude() {
+        let variables = Variables {
+            degrees: vec![2; 4],
+            rotations: vec![1],
+        };
+        let start = UnitQuaternion::from_scaled_axis(Vector3::new(0.3, -1.0, 2.0));
+        let omega = Vector3::new(2.0, -1.0, 1.5);
+        let mut history = History::new(variables, &[0.0; 4], vec![start]);
+        let mut t = 0.0;
+        for step in [0.4, 0.7, 0.5].into_iter().cycle().take(40) {
+            t += step;
+            let phi = omega * step;
+            history.push(step, &[0.0, phi.x, phi.y, phi.z]);
+            let expected = attitude(&start, &(omega * t));
+            assert!(history.attitudes()[0].angle_to(&expected) < 1e-12);
+        }
+        for (component, expected) in (omega * 0.6).iter().enumerate() {
+            let found = history.value(1 + component, Curve::Extrapolated, 0.6, 0.6);
+            assert!((found - expected).abs() < 1e-11, "{found} {expected}");
+        }
+    }
+}
