@@ -6,7 +6,7 @@
 
 pub(crate) mod request;
 
-use linchpin_proto::joint_load::{Displacement, End, JointLaw, Pose, Wrench};
+use linchpin_proto::joint_load::{End, JointLaw, Pose, Wrench};
 use nalgebra::Vector3;
 
 /// The load of one multiplier on one marker. Places of signals count the input values as the subsystem sees them: see
@@ -84,23 +84,6 @@ impl JointLoad {
     /// If `inputs` is shorter than the places of this load tell; it never is with the input values of a subsystem.
     pub fn wrench(&self, own: &Pose, inputs: &[f64]) -> Wrench {
         let unit = self.law.unit_wrench(self.end, &self.poses(own, inputs));
-        scaled(inputs[self.multiplier], unit)
-    }
-
-    /// Change of [`JointLoad::wrench`] under a small displacement of the own marker, for the Jacobian of an implicit
-    /// solver.
-    ///
-    /// # Panics
-    /// As [`JointLoad::wrench`].
-    pub fn wrench_change(&self, own: &Pose, inputs: &[f64], moved: &Displacement) -> Wrench {
-        let at_rest = Displacement {
-            position: Vector3::zeros(),
-            rotation: Vector3::zeros(),
-        };
-        let mut both = [at_rest; 2];
-        both[self.end as usize] = *moved;
-        let poses = self.poses(own, inputs);
-        let unit = self.law.unit_wrench_change(self.end, &poses, &both);
         scaled(inputs[self.multiplier], unit)
     }
 
