@@ -1,6 +1,7 @@
 //! What all models share that are an ordinary differential equation `y' = f(y, u)`.
 //!
 //! * [`equation`]: what a model gives;
+//! * [`joint_loads`]: loads of joints at the markers of the model;
 //! * [`run`]: an equation and a solver as a subsystem: state, outputs, snapshots, checks;
 //! * [`adaptive`], [`fixed`], [`solvers`]: the solvers, and how a setup chooses one;
 //! * [`describe`], [`markers`]: parts of a description;
@@ -10,6 +11,7 @@ mod adaptive;
 pub mod describe;
 pub mod equation;
 mod fixed;
+pub mod joint_loads;
 pub mod markers;
 pub mod planar;
 pub mod run;

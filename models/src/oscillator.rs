@@ -14,6 +14,7 @@ use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Model, Setup, Subsystem};
 
+use crate::mechanics::joint_loads::JointLoads;
 use crate::mechanics::run::Run;
 use crate::mechanics::solvers;
 use equation::Equation;
@@ -35,7 +36,10 @@ impl Model for Oscillator {
         let equation = Equation::new(own, PartnerSpring::from_setup(setup)?);
         let start = [own.x0, own.v0];
         match setup.solver() {
-            description::EXACT => Ok(Box::new(Run::new(equation, start, Exact::default()))),
+            description::EXACT => {
+                let run = Run::new(equation, JointLoads::default(), start, Exact::default());
+                Ok(Box::new(run))
+            }
             _ => solvers::start(equation, start, setup),
         }
     }

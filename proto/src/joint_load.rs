@@ -130,6 +130,17 @@ pub enum JointLoadError {
     },
 }
 
+impl JointLoadError {
+    /// Field of the message.
+    pub fn field(&self) -> &'static str {
+        match self {
+            Self::Law { .. } => "law",
+            Self::End { .. } => "end",
+            Self::Vector { field } | Self::NotUnit { field, .. } => field,
+        }
+    }
+}
+
 impl Pose {
     /// A marker in the plane; the angle (rad) turns about the third axis.
     pub fn planar(x: f64, y: f64, angle: f64) -> Self {

@@ -11,7 +11,8 @@ use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1::{self, Failure};
 use linchpin_proto::version::{self, PROTOCOL};
 
-use crate::instance::Instance;
+use crate::instance::{Instance, Signals};
+use crate::joint_load::request::joint_loads;
 use crate::{Model, Setup, setup::SetupError};
 
 /// What a worker allows its masters.
@@ -106,27 +107,40 @@ impl Host {
     fn build(&self, request: &v1::InitializeRequest) -> Result<Instance, Failure> {
         version::negotiate(request.protocol.as_ref())
             .map_err(|error| Failure::misuse("protocol", error.to_string()))?;
-        let Some(model) = self.models.get(&request.model) else {
-            let known: Vec<&str> = self.models.keys().map(String::as_str).collect();
-            return Err(Failure::misuse(
-                "model",
-                format!(
-                    "this worker has no model \"{}\"; it has: {}",
-                    request.model,
-                    known.join(", ")
-                ),
-            ));
-        };
-        let description = model.describe();
+        let model = self.model(&request.model)?;
+        let description = model.describe_with(&request.parameters).map_err(refuse)?;
+        let signals = Signals::new(&description.inputs, request)?;
+        let joint_loads = joint_loads(&description, request, &signals)?;
         let setup = Setup::from_request(
             &description,
             request.parameters.clone(),
             request.solver.clone(),
             request.t_start,
         )
-        .map_err(refuse)?;
+        .map_err(refuse)?
+        .with_joint_loads(joint_loads);
         let subsystem = model.initialize(&setup).map_err(refuse)?;
-        Instance::new(subsystem, &description, request, self.limits.snapshots)
+        let most_snapshots = self.limits.snapshots;
+        Instance::new(subsystem, signals, &description, request, most_snapshots)
+    }
+
+    fn model(&self, name: &str) -> Result<&dyn Model, Failure> {
+        let model = self.models.get(name).map(|model| &**model);
+        model.ok_or_else(|| {
+            let known: Vec<&str> = self.models.keys().map(String::as_str).collect();
+            let known = known.join(", ");
+            let message = format!("this worker has no model \"{name}\"; it has: {known}");
+            Failure::misuse("model", message)
+        })
+    }
+
+    /// The model that the request names, with its parameters, or all models.
+    fn describe_models(&self, request: &v1::DescribeRequest) -> Result<Vec<v1::Model>, Failure> {
+        let Some(name) = &request.model else {
+            return Ok(self.models.values().map(|model| model.describe()).collect());
+        };
+        let description = self.model(name)?.describe_with(&request.parameters);
+        Ok(vec![description.map_err(refuse)?])
     }
 
     fn place(
@@ -208,16 +222,13 @@ impl Seat {
 }
 
 impl Contract for Host {
-    fn describe(&self, _: &v1::DescribeRequest) -> Result<v1::DescribeReply, CallError> {
+    fn describe(&self, request: &v1::DescribeRequest) -> Result<v1::DescribeReply, CallError> {
+        let models = survive(|| self.describe_models(request))?;
         Ok(v1::DescribeReply {
             protocol: Some(PROTOCOL),
             worker: "linchpin".into(),
             worker_version: env!("CARGO_PKG_VERSION").into(),
-            models: self
-                .models
-                .values()
-                .map(|model| with_capabilities(model.describe()))
-                .collect(),
+            models: models.into_iter().map(with_capabilities).collect(),
         })
     }
 
@@ -281,6 +292,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         repeats_step_sequence: own.repeats_step_sequence,
         max_input_degree: MAX_NODES as u32 - 1,
         exportable_snapshot: false,
+        joint_loads: own.joint_loads,
     });
     model
 }

@@ -11,6 +11,8 @@ use crate::Subsystem;
 use motion::{Base, Horizon, Meter, Motion, Sequence, interval};
 use snapshots::Snapshots;
 
+pub(crate) use signals::{Signals, find};
+
 /// A subsystem that is being driven by a master.
 ///
 /// It has one state: that of the start, of the last Step or Restore, or of the last advance of an exchange. A call that
@@ -35,9 +37,10 @@ enum Answer {
 }
 
 impl Instance {
-    /// Wraps `subsystem`, which is in its initial state.
+    /// Wraps `subsystem`, which is in its initial state and sees `signals`.
     pub(crate) fn new(
         subsystem: Box<dyn Subsystem>,
+        signals: Signals,
         model: &v1::Model,
         request: &v1::InitializeRequest,
         most_snapshots: usize,
@@ -46,7 +49,7 @@ impl Instance {
             tolerance: subsystem.tolerance(),
         };
         Ok(Self {
-            motion: Motion::new(subsystem, model, request)?,
+            motion: Motion::new(subsystem, signals, model, request)?,
             snapshots: Snapshots::new(most_snapshots),
             initialized,
             sequence: request.sequence,

@@ -4,7 +4,7 @@
 //! initialize). [`Host`] gives the contract `linchpin.v1` around it: instances, sequence numbers, snapshots, the
 //! fused exchange. [`server`] serves a host over gRPC, on TCP or a Unix socket.
 //!
-//! * [`subsystem`], [`inputs`], [`snapshot`]: what a solver sees;
+//! * [`subsystem`], [`inputs`], [`snapshot`], [`joint_load`]: what a solver sees;
 //! * [`host`], [`instance`]: what the contract sees;
 //! * [`server`]: the gRPC service, health, reflection, shutdown;
 //! * [`scripted`]: a peer that answers from a script, for tests of masters.
@@ -14,6 +14,7 @@
 pub mod host;
 pub mod inputs;
 pub mod instance;
+pub mod joint_load;
 pub mod scripted;
 pub mod server;
 pub mod setup;
@@ -22,6 +23,7 @@ pub mod subsystem;
 
 pub use host::Host;
 pub use inputs::Inputs;
+pub use joint_load::JointLoad;
 pub use setup::Setup;
 pub use snapshot::Snapshot;
 pub use subsystem::{Interval, Model, StepFailure, Subsystem};

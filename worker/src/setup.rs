@@ -1,8 +1,14 @@
 //! What an instance is built from.
 
+mod values;
+
 use std::collections::BTreeMap;
 
 use linchpin_proto::v1::{self, value::Kind};
+
+use crate::JointLoad;
+
+pub use values::Values;
 
 /// Parameters, solver and start time of a new instance. Defaults of the description are filled in.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,6 +17,7 @@ pub struct Setup {
     pub(crate) solver: String,
     pub(crate) options: BTreeMap<String, v1::Value>,
     pub(crate) t_start: f64,
+    pub(crate) joint_loads: Vec<JointLoad>,
 }
 
 /// Why an instance cannot be built: `field` is the place in the scene's subsystem, e.g. `parameters.m`.
@@ -115,6 +122,7 @@ impl Setup {
             solver: String::new(),
             options: BTreeMap::new(),
             t_start,
+            joint_loads: Vec::new(),
         };
         let solver = match solver {
             Some(solver) => solver,
@@ -140,6 +148,19 @@ impl Setup {
         Ok(setup)
     }
 
+    /// The same setup with these joint loads.
+    pub fn with_joint_loads(self, joint_loads: Vec<JointLoad>) -> Self {
+        Self {
+            joint_loads,
+            ..self
+        }
+    }
+
+    /// The joint loads that the subsystem evaluates. None, unless the capabilities of the description say so.
+    pub fn joint_loads(&self) -> &[JointLoad] {
+        &self.joint_loads
+    }
+
     /// Time at which the instance starts.
     pub fn t_start(&self) -> f64 {
         self.t_start
@@ -152,7 +173,17 @@ impl Setup {
 
     /// A parameter that is a number.
     pub fn parameter(&self, name: &str) -> Result<f64, SetupError> {
-        number("parameters", &self.parameters, name)
+        self.parameters().number(name)
+    }
+
+    /// A parameter that is a text.
+    pub fn text_parameter(&self, name: &str) -> Result<&str, SetupError> {
+        self.parameters().text(name)
+    }
+
+    /// A parameter that is a list of numbers, of any length.
+    pub fn numbers_parameter(&self, name: &str) -> Result<&[f64], SetupError> {
+        self.parameters().numbers(name)
     }
 
     /// A parameter that must be positive.
@@ -172,18 +203,17 @@ impl Setup {
         allowed: &'static str,
         is_allowed: impl Fn(f64) -> bool,
     ) -> Result<f64, SetupError> {
-        in_range("parameters", &self.parameters, name, allowed, is_allowed)
+        self.parameters().number_in(name, allowed, is_allowed)
     }
 
     /// An option of the solver that must be positive.
     pub fn positive_option(&self, name: &str) -> Result<f64, SetupError> {
-        in_range(
-            "solver",
-            &self.options,
-            name,
-            "it must be greater than 0",
-            |value| value > 0.0,
-        )
+        let options = Values::options(&self.options);
+        options.number_in(name, "it must be greater than 0", |value| value > 0.0)
+    }
+
+    fn parameters(&self) -> Values<'_> {
+        Values::parameters(&self.parameters)
     }
 }
 
@@ -213,45 +243,6 @@ fn complete(
         values.insert(parameter.name.clone(), value);
     }
     Ok(())
-}
-
-fn number(
-    table: &str,
-    values: &BTreeMap<String, v1::Value>,
-    name: &str,
-) -> Result<f64, SetupError> {
-    let field = || format!("{table}.{name}");
-    match values.get(name).map(|value| &value.kind) {
-        Some(Some(Kind::Number(value))) if value.is_finite() => Ok(*value),
-        Some(Some(Kind::Number(value))) => Err(SetupError::OutOfRange {
-            field: field(),
-            value: *value,
-            allowed: "it must be a finite number",
-        }),
-        Some(_) => Err(SetupError::WrongType {
-            field: field(),
-            expected: "a number",
-        }),
-        None => Err(SetupError::Missing { field: field() }),
-    }
-}
-
-fn in_range(
-    table: &str,
-    values: &BTreeMap<String, v1::Value>,
-    name: &str,
-    allowed: &'static str,
-    is_allowed: impl Fn(f64) -> bool,
-) -> Result<f64, SetupError> {
-    let value = number(table, values, name)?;
-    if is_allowed(value) {
-        return Ok(value);
-    }
-    Err(SetupError::OutOfRange {
-        field: format!("{table}.{name}"),
-        value,
-        allowed,
-    })
 }
 
 fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {

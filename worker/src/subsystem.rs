@@ -1,5 +1,7 @@
 //! What a solver author implements.
 
+use std::collections::BTreeMap;
+
 use linchpin_proto::v1;
 
 use crate::{Inputs, Setup, Snapshot, setup::SetupError};
@@ -42,7 +44,8 @@ pub enum StepFailure {
 /// A solver run: one subsystem with its state.
 ///
 /// All inputs are given for every call, in the order of the model's description; an input that the scene does not
-/// drive is the constant of its default.
+/// drive is the constant of its default. Behind them come the joint inputs of the request, in its order: what the
+/// joint loads of [`Setup::joint_loads`] read. There are none unless the model's capabilities say `joint_loads`.
 pub trait Subsystem: Send {
     /// Integrates over `interval` under `inputs` (polynomials of the time since `interval.start`).
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure>;
@@ -88,6 +91,17 @@ pub trait Model: Send + Sync {
     /// Name, inputs, outputs, parameters, markers, solvers, states.
     /// The SDK fills in which capabilities it provides itself.
     fn describe(&self) -> v1::Model;
+
+    /// The description of a model whose inputs, outputs or markers depend on its parameters, here with those of a scene.
+    ///
+    /// # Errors
+    /// [`SetupError`] if a parameter that the description depends on is missing or out of its range.
+    fn describe_with(
+        &self,
+        _parameters: &BTreeMap<String, v1::Value>,
+    ) -> Result<v1::Model, SetupError> {
+        Ok(self.describe())
+    }
 
     /// Builds the subsystem in its initial state. Parameters that the description does not list, or that it needs
     /// and `setup` does not have, are refused before this is called.

@@ -1,6 +1,6 @@
 //! Solver `radau5`: implicit, with step-size control.
 
-use linchpin_worker::{Inputs, Interval, StepFailure};
+use linchpin_worker::{Interval, StepFailure};
 
 use super::equation::{Driven, EquationOfMotion};
 use super::run::Solver;
@@ -27,31 +27,27 @@ impl Adaptive {
 impl<E: EquationOfMotion> Solver<E> for Adaptive {
     fn step(
         &mut self,
-        equation: &E,
+        ode: &Driven<E>,
         interval: Interval,
-        inputs: &Inputs,
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
-        let ode = Driven { equation, inputs };
         self.radau
-            .integrate(&ode, interval.length, state.as_mut())
+            .integrate(ode, interval.length, state.as_mut())
             .map_err(|error| at(interval, error))
     }
 
     fn perturbed_step(
         &mut self,
-        equation: &E,
+        ode: &Driven<E>,
         interval: Interval,
-        inputs: &Inputs,
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
-        let ode = Driven { equation, inputs };
         if self.radau.has_recorded(interval.length, state.as_ref()) {
             self.radau
-                .replay(&ode, state.as_mut())
+                .replay(ode, state.as_mut())
                 .map_err(|error| at(interval, error))
         } else {
-            self.step(equation, interval, inputs, state)
+            self.step(ode, interval, state)
         }
     }
 

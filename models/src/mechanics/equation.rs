@@ -3,6 +3,7 @@
 use linchpin_worker::Inputs;
 use nalgebra::DMatrix;
 
+use super::joint_loads::JointLoads;
 use crate::integrators::Ode;
 
 /// A fixed number of values: states or inputs.
@@ -19,7 +20,7 @@ impl<const N: usize> Vector for [f64; N] {
 pub trait EquationOfMotion: Send {
     /// The states `y`.
     type State: Vector;
-    /// The inputs `u`, in the order of the model's description.
+    /// The inputs `u`, in the order of the model's description; loads of joints are added to those of the markers.
     type Inputs: Vector;
 
     /// Names of the states, for messages.
@@ -31,25 +32,29 @@ pub trait EquationOfMotion: Send {
     /// Writes `df/dy` to `jacobian`, all of it.
     fn jacobian(&self, state: &Self::State, inputs: &Self::Inputs, jacobian: &mut DMatrix<f64>);
 
-    /// Output number `output` of the model's description; `None` if there is none.
+    /// Output number `output` of the model's description; `None` if there is none. Positions of markers do not depend
+    /// on the inputs.
     fn output(&self, state: &Self::State, inputs: &Self::Inputs, output: usize) -> Option<f64>;
 
     /// Brings a state that a macro step has reached back to where states belong (a quaternion to unit length).
     fn settle(&self, _state: &mut Self::State) {}
 }
 
-/// The equation under given inputs, as integrators want it.
+/// The equation under given inputs and joint loads, as integrators want it.
 #[derive(Debug, Clone, Copy)]
 pub struct Driven<'a, E> {
     pub equation: &'a E,
     pub inputs: &'a Inputs,
+    pub joint_loads: &'a JointLoads,
 }
 
 impl<E: EquationOfMotion> Driven<'_, E> {
     fn at(&self, tau: f64, y: &[f64]) -> (E::State, E::Inputs) {
-        let (mut state, mut inputs) = (E::State::ZERO, E::Inputs::ZERO);
+        let mut state = E::State::ZERO;
         state.as_mut().copy_from_slice(y);
-        self.inputs.values_at(tau, inputs.as_mut());
+        let inputs = self
+            .joint_loads
+            .inputs_at(self.equation, &state, self.inputs, tau);
         (state, inputs)
     }
 }
@@ -60,7 +65,11 @@ impl<E: EquationOfMotion> Ode for Driven<'_, E> {
         dy.copy_from_slice(self.equation.rate(&state, &inputs).as_ref());
     }
 
+    /// Joint loads depend on the state by way of the markers: then the integrator's differences serve.
     fn jacobian(&self, tau: f64, y: &[f64], jacobian: &mut DMatrix<f64>) -> bool {
+        if !self.joint_loads.is_empty() {
+            return false;
+        }
         let (state, inputs) = self.at(tau, y);
         self.equation.jacobian(&state, &inputs, jacobian);
         true

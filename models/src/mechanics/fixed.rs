@@ -1,6 +1,6 @@
 //! Solver `rk4`: fixed steps.
 
-use linchpin_worker::{Inputs, Interval, StepFailure};
+use linchpin_worker::{Interval, StepFailure};
 
 use super::equation::{Driven, EquationOfMotion};
 use super::run::Solver;
@@ -35,9 +35,8 @@ impl Fixed {
 impl<E: EquationOfMotion> Solver<E> for Fixed {
     fn step(
         &mut self,
-        equation: &E,
+        ode: &Driven<E>,
         interval: Interval,
-        inputs: &Inputs,
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
         let parts = (interval.length / self.step - ROUNDING).ceil().max(1.0);
@@ -52,9 +51,8 @@ impl<E: EquationOfMotion> Solver<E> for Fixed {
             });
         }
         let parts = parts as u64;
-        let ode = Driven { equation, inputs };
         self.rk4
-            .integrate(&ode, interval.length, parts, state.as_mut());
+            .integrate(ode, interval.length, parts, state.as_mut());
         self.steps += parts;
         Ok(())
     }

@@ -2,28 +2,27 @@
 
 use linchpin_worker::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
 
-use super::equation::{EquationOfMotion, Vector};
+use super::equation::{Driven, EquationOfMotion};
+use super::joint_loads::JointLoads;
 
 /// How an equation of motion is advanced in time.
 pub trait Solver<E: EquationOfMotion>: Send {
     /// Advances `state` over `interval`.
     fn step(
         &mut self,
-        equation: &E,
+        driven: &Driven<E>,
         interval: Interval,
-        inputs: &Inputs,
         state: &mut E::State,
     ) -> Result<(), StepFailure>;
 
     /// Advances `state` with the internal steps of the last [`Solver::step`].
     fn perturbed_step(
         &mut self,
-        equation: &E,
+        driven: &Driven<E>,
         interval: Interval,
-        inputs: &Inputs,
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
-        self.step(equation, interval, inputs, state)
+        self.step(driven, interval, state)
     }
 
     /// What the next step depends on besides the state, as one number; 0 if there is nothing.
@@ -46,6 +45,7 @@ pub trait Solver<E: EquationOfMotion>: Send {
 /// One subsystem in motion.
 pub struct Run<E: EquationOfMotion, S> {
     equation: E,
+    joint_loads: JointLoads,
     state: E::State,
     solver: S,
     /// What a snapshot holds: the state, then the solver's memory.
@@ -53,9 +53,10 @@ pub struct Run<E: EquationOfMotion, S> {
 }
 
 impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
-    pub fn new(equation: E, start: E::State, solver: S) -> Self {
+    pub fn new(equation: E, joint_loads: JointLoads, start: E::State, solver: S) -> Self {
         Self {
             equation,
+            joint_loads,
             state: start,
             solver,
             kept: vec![0.0; E::STATE_NAMES.len() + 1],
@@ -63,7 +64,19 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
     }
 
     /// A step that fails leaves the state as it was.
-    fn commit(&mut self, mut reached: E::State, interval: Interval) -> Result<(), StepFailure> {
+    fn advance(
+        &mut self,
+        interval: Interval,
+        inputs: &Inputs,
+        step: impl FnOnce(&mut S, &Driven<E>, Interval, &mut E::State) -> Result<(), StepFailure>,
+    ) -> Result<(), StepFailure> {
+        let driven = Driven {
+            equation: &self.equation,
+            inputs,
+            joint_loads: &self.joint_loads,
+        };
+        let mut reached = self.state;
+        step(&mut self.solver, &driven, interval, &mut reached)?;
         self.equation.settle(&mut reached);
         let mut values = reached.as_ref().iter().zip(E::STATE_NAMES);
         if let Some((value, name)) = values.find(|(value, _)| !value.is_finite()) {
@@ -79,17 +92,11 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
 
 impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
-        let mut reached = self.state;
-        self.solver
-            .step(&self.equation, interval, inputs, &mut reached)?;
-        self.commit(reached, interval)
+        self.advance(interval, inputs, S::step)
     }
 
     fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
-        let mut reached = self.state;
-        self.solver
-            .perturbed_step(&self.equation, interval, inputs, &mut reached)?;
-        self.commit(reached, interval)
+        self.advance(interval, inputs, S::perturbed_step)
     }
 
     fn outputs(
@@ -99,8 +106,7 @@ impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
         wanted: &[usize],
         values: &mut [f64],
     ) -> Result<(), StepFailure> {
-        let mut u = E::Inputs::ZERO;
-        u.as_mut().copy_from_slice(inputs);
+        let u = self.joint_loads.inputs(&self.equation, &self.state, inputs);
         for (value, &output) in values.iter_mut().zip(wanted) {
             let computed = self.equation.output(&self.state, &u, output);
             *value = computed.ok_or_else(|| StepFailure::Fatal {

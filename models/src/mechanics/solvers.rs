@@ -8,6 +8,7 @@ use super::adaptive::Adaptive;
 use super::describe::{needed, optional};
 use super::equation::EquationOfMotion;
 use super::fixed::Fixed;
+use super::joint_loads::JointLoads;
 use super::run::Run;
 use crate::integrators::radau::Tolerances;
 
@@ -53,10 +54,11 @@ pub fn kind(name: &str, description: &str, options: Vec<v1::Parameter>) -> v1::S
     }
 }
 
-/// The capabilities of a model with these solvers, as far as they are the model's own.
+/// The capabilities of a model with these solvers and planar or spatial markers, as far as they are the model's own.
 pub fn capabilities() -> v1::Capabilities {
     v1::Capabilities {
         repeats_step_sequence: true,
+        joint_loads: true,
         ..v1::Capabilities::default()
     }
 }
@@ -74,6 +76,7 @@ where
     E::State: 'static,
 {
     let dimension = E::STATE_NAMES.len();
+    let joint_loads = JointLoads::of(setup);
     match setup.solver() {
         RADAU5 => {
             let tolerances = Tolerances {
@@ -81,11 +84,11 @@ where
                 absolute: setup.positive_option("atol")?,
             };
             let adaptive = Adaptive::new(dimension, tolerances);
-            Ok(Box::new(Run::new(equation, start, adaptive)))
+            Ok(Box::new(Run::new(equation, joint_loads, start, adaptive)))
         }
         RK4 => {
             let fixed = Fixed::new(dimension, setup.positive_option("step")?);
-            Ok(Box::new(Run::new(equation, start, fixed)))
+            Ok(Box::new(Run::new(equation, joint_loads, start, fixed)))
         }
         other => Err(SetupError::UnknownSolver {
             kind: other.to_owned(),

@@ -34,7 +34,10 @@ pub fn model() -> v1::Model {
         markers: vec![mass_marker()],
         solvers: solvers(),
         states: vec![state("x", "x0"), state("v", "v0")],
-        capabilities: Some(capabilities()),
+        capabilities: Some(v1::Capabilities {
+            joint_loads: false,
+            ..capabilities()
+        }),
     }
 }
 

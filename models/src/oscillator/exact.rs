@@ -1,10 +1,11 @@
 //! Solver `exact`: the solution in closed form for polynomial inputs.
 
 use linchpin_proto::polynomial::MAX_NODES;
-use linchpin_worker::{Inputs, Interval, StepFailure};
+use linchpin_worker::{Interval, StepFailure};
 
 use super::equation::{Equation, State};
 use super::propagator::Propagator;
+use crate::mechanics::equation::Driven;
 use crate::mechanics::run::Solver;
 
 /// The matrix exponential of the equation of motion, kept for the two step lengths used last: a run may end with
@@ -77,9 +78,10 @@ impl Exact {
 impl Solver<Equation> for Exact {
     fn step(
         &mut self,
-        equation: &Equation,
+        &Driven {
+            equation, inputs, ..
+        }: &Driven<Equation>,
         interval: Interval,
-        inputs: &Inputs,
         state: &mut State,
     ) -> Result<(), StepFailure> {
         let response = self.response(equation, interval.length).ok_or_else(|| StepFailure::Recoverable {

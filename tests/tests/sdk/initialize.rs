@@ -48,6 +48,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             repeats_step_sequence,
             max_input_degree: 7,
             exportable_snapshot: false,
+            joint_loads: ["pendulum", "planar-body", "spatial-body"].contains(&model.name.as_str()),
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }

@@ -67,6 +67,7 @@ pub(super) enum Sequence {
 impl Motion {
     pub(super) fn new(
         subsystem: Box<dyn Subsystem>,
+        signals: Signals,
         model: &v1::Model,
         request: &v1::InitializeRequest,
     ) -> Result<Self, Failure> {
@@ -82,7 +83,7 @@ impl Motion {
         subsystem.snapshot(&mut committed.snapshot);
         Ok(Self {
             subsystem,
-            signals: Signals::new(&model.inputs, &request.inputs)?,
+            signals,
             outputs: outputs.clone(),
             coupling_outputs,
             all_outputs,

@@ -5,8 +5,9 @@ use linchpin_proto::v1::{self, Failure};
 
 use crate::Inputs;
 
-/// The driven inputs of an instance, and the defaults of the others.
-pub(super) struct Signals {
+/// The driven inputs of an instance, the defaults of the others, and the inputs of joint loads.
+pub(crate) struct Signals {
+    /// In the order in which a signal names them: driven inputs of the model, then joint inputs.
     driven: Vec<Driven>,
     is_given: Vec<bool>,
     inputs: Inputs,
@@ -27,7 +28,15 @@ pub(super) struct Replaced {
 }
 
 impl Signals {
-    pub(super) fn new(known: &[v1::Variable], driven: &[String]) -> Result<Self, Failure> {
+    /// The inputs that a subsystem sees: those of the model, in their order, then the joint inputs of the request.
+    ///
+    /// # Errors
+    /// [`Failure`] of severity misuse: names that are unknown or listed twice, inputs without a value.
+    pub(crate) fn new(
+        known: &[v1::Variable],
+        request: &v1::InitializeRequest,
+    ) -> Result<Self, Failure> {
+        let driven = &request.inputs;
         let places = find(known, driven, "inputs")?;
         let undriven = |place: &usize| known[*place].default.is_none() && !places.contains(place);
         if let Some(place) = (0..known.len()).find(undriven) {
@@ -39,29 +48,39 @@ impl Signals {
                 ),
             ));
         }
-        if let Some(twice) = (1..places.len()).find(|&i| places[..i].contains(&places[i])) {
-            return Err(Failure::misuse(
-                "inputs",
-                format!("input \"{}\" is listed twice", driven[twice]),
-            ));
-        }
-        let start: Vec<f64> = known
-            .iter()
-            .map(|variable| variable.default.unwrap_or_default())
-            .collect();
+        refuse_twice("inputs", driven)?;
+        refuse_twice("joint_inputs", &request.joint_inputs)?;
+        let own = places.into_iter().map(|input| Driven {
+            input,
+            name: known[input].name.clone(),
+            default: known[input].default,
+        });
+        let joint_inputs = request.joint_inputs.iter().zip(known.len()..);
+        let joint_inputs = joint_inputs.map(|(name, input)| Driven {
+            input,
+            name: name.clone(),
+            default: None,
+        });
+        let driven: Vec<Driven> = own.chain(joint_inputs).collect();
+        let start = known.iter().map(|variable| variable.default);
+        let start = start.chain(request.joint_inputs.iter().map(|_| None));
+        let start: Vec<f64> = start.map(Option::unwrap_or_default).collect();
         Ok(Self {
-            is_given: vec![false; places.len()],
-            driven: places
-                .into_iter()
-                .map(|input| Driven {
-                    input,
-                    name: known[input].name.clone(),
-                    default: known[input].default,
-                })
-                .collect(),
+            is_given: vec![false; driven.len()],
+            driven,
             inputs: Inputs::constant(&start),
             values: start,
         })
+    }
+
+    /// Number of inputs that have signals.
+    pub(crate) fn len(&self) -> usize {
+        self.driven.len()
+    }
+
+    /// Place of signal number `signal` among the inputs that the subsystem sees.
+    pub(crate) fn input(&self, signal: usize) -> Option<usize> {
+        self.driven.get(signal).map(|driven| driven.input)
     }
 
     pub(super) fn inputs(&self) -> &Inputs {
@@ -135,7 +154,7 @@ impl Signals {
 }
 
 /// Places of `names` among the variables that a model has; `field` is where the names stand in the request.
-pub(super) fn find(
+pub(crate) fn find(
     known: &[v1::Variable],
     names: &[String],
     field: &str,
@@ -159,6 +178,14 @@ pub(super) fn find(
             })
     };
     names.iter().map(place).collect()
+}
+
+fn refuse_twice(field: &str, names: &[String]) -> Result<(), Failure> {
+    let twice = (1..names.len()).find(|&i| names[..i].contains(&names[i]));
+    twice.map_or(Ok(()), |i| {
+        let message = format!("input \"{}\" is listed twice", names[i]);
+        Err(Failure::misuse(field, message))
+    })
 }
 
 fn polynomial(signal: &v1::Signal) -> Result<Polynomial, Failure> {

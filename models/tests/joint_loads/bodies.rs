@@ -1,0 +1,49 @@
+//! The models that take joint loads.
+
+use linchpin_proto::v1;
+
+use crate::common::Solver;
+use crate::common::body::{CASES, Case, TIGHT, model};
+use crate::joint::Space;
+
+/// A model with its markers.
+#[derive(Debug, Clone, Copy)]
+pub struct Body {
+    pub case: Case,
+    pub space: Space,
+    pub markers: &'static [&'static str],
+}
+
+pub const PENDULUM: Body = Body {
+    case: CASES[1],
+    space: Space::Planar,
+    markers: &["tip"],
+};
+
+pub const LINK: Body = Body {
+    case: CASES[2],
+    space: Space::Planar,
+    markers: &["start", "end"],
+};
+
+pub const SPATIAL: Body = Body {
+    case: CASES[3],
+    space: Space::Spatial,
+    markers: &["start", "end"],
+};
+
+pub const BODIES: [Body; 3] = [PENDULUM, LINK, SPATIAL];
+
+/// Solvers whose error is below what is checked.
+pub const SOLVERS: [Solver; 2] = [TIGHT, Solver("rk4", &[("step", 2.5e-4)])];
+
+impl Body {
+    pub fn description(&self) -> v1::Model {
+        model(self.case.model).describe()
+    }
+
+    pub fn outputs(&self) -> Vec<String> {
+        let outputs = self.description().outputs.into_iter();
+        outputs.map(|output| output.name).collect()
+    }
+}
