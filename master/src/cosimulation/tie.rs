@@ -1,11 +1,13 @@
 //! Finds models, markers and outputs that a scene names in what the workers describe.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use linchpin_proto::v1::{self, MarkerKind};
 use linchpin_proto::version;
 
 use super::geometry::law_of;
+use super::refusal::refuse_setup;
 use super::{Subsystem, at_start};
 use crate::coupling::layout::{Lack, MarkedConnection, MarkedJoint, MarkerLacks, column_name};
 use crate::error::RunError;
@@ -21,18 +23,31 @@ pub(super) fn model_of(
 ) -> Result<v1::Model, RunError> {
     let written = &scene.subsystems[number];
     let description = subsystem
-        .describe(written.model.as_deref(), &written.parameters)
+        .describe(None, &BTreeMap::new())
         .map_err(|error| subsystem.failed(error, at_start(scene.t_start)))?;
     version::negotiate(description.protocol.as_ref()).map_err(|source| RunError::Incompatible {
         subsystem: written.name.clone(),
         source,
     })?;
+    let model = choose_model(scene, number, &description.models)?;
+    // What the model offers may depend on its parameters.
+    let configured = subsystem
+        .describe(Some(&model.name), &written.parameters)
+        .map_err(|error| refuse_setup(scene, number, model, subsystem, error))?;
+    let mut configured = configured.models.into_iter();
+    let same = configured.find(|configured| configured.name == model.name);
+    Ok(same.unwrap_or_else(|| model.clone()))
+}
+
+/// The model that the scene names, or the only one.
+fn choose_model<'a>(
+    scene: &Scene,
+    number: usize,
+    models: &'a [v1::Model],
+) -> Result<&'a v1::Model, RunError> {
+    let written = &scene.subsystems[number];
     let key = format!("subsystem.{}.model", written.name);
-    let names: Vec<&str> = description
-        .models
-        .iter()
-        .map(|model| model.name.as_str())
-        .collect();
+    let names: Vec<&str> = models.iter().map(|model| model.name.as_str()).collect();
     let place = match &written.model {
         Some(name) => names
             .iter()
@@ -59,7 +74,7 @@ pub(super) fn model_of(
                 .into());
         }
     };
-    Ok(description.models[place].clone())
+    Ok(&models[place])
 }
 
 /// The markers that the joints of the scene hold.
