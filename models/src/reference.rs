@@ -3,7 +3,8 @@
 //! * [`FreeOscillation`]: one mass on a spring and a damper, without a force, in closed form;
 //! * [`LinkedOscillators`]: several of them, held together by rigid links, with the force in every link;
 //! * [`DoublePendulum`], [`Chain`]: linked pendulums in minimal coordinates, with the force in every hinge, integrated
-//!   to a tolerance of 1e-12.
+//!   to a tolerance of 1e-12;
+//! * [`SliderCrank`]: the same for a mechanism with a slider, with the force in its contact.
 
 mod chain;
 mod double_pendulum;
@@ -11,6 +12,9 @@ mod error;
 mod free;
 mod linked;
 mod links;
+mod ranges;
+mod slider_crank;
+mod tip_line;
 mod trajectory;
 
 pub use chain::Chain;
@@ -19,3 +23,4 @@ pub use error::ReferenceError;
 pub use free::{FreeOscillation, Motion};
 pub use linked::{LinkError, LinkedOscillators};
 pub use links::{GroundHinge, Link, LinkMotion};
+pub use slider_crank::{SliderCrank, SliderCrankMotion};
