@@ -4,7 +4,8 @@
 //! * [`LinkedOscillators`]: several of them, held together by rigid links, with the force in every link;
 //! * [`DoublePendulum`], [`Chain`]: linked pendulums in minimal coordinates, with the force in every hinge, integrated
 //!   to a tolerance of 1e-12;
-//! * [`SliderCrank`]: the same for a mechanism with a slider, with the force in its contact.
+//! * [`SliderCrank`]: the same for a mechanism with a slider, with the force in its contact;
+//! * [`MotorDrivenSliderCrank`]: the same on the shaft of a motor with a speed controller.
 
 mod chain;
 mod double_pendulum;
@@ -12,6 +13,7 @@ mod error;
 mod free;
 mod linked;
 mod links;
+mod motor;
 mod ranges;
 mod slider_crank;
 mod tip_line;
@@ -23,4 +25,5 @@ pub use error::ReferenceError;
 pub use free::{FreeOscillation, Motion};
 pub use linked::{LinkError, LinkedOscillators};
 pub use links::{GroundHinge, Link, LinkMotion};
+pub use motor::{Motor, MotorDrivenMotion, MotorDrivenSliderCrank, SpeedController};
 pub use slider_crank::{SliderCrank, SliderCrankMotion};
