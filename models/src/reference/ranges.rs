@@ -15,6 +15,10 @@ pub(super) fn finite(field: &'static str, value: f64) -> Result<(), ReferenceErr
     rule(field, value, "a finite number", true)
 }
 
+pub(super) fn all_finite(field: &'static str, values: &[f64]) -> Result<(), ReferenceError> {
+    values.iter().try_for_each(|&value| finite(field, value))
+}
+
 fn rule(
     field: &'static str,
     value: f64,

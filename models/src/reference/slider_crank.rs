@@ -1,7 +1,7 @@
 //! The slider-crank of S1 Sect. 4.3 with the crank's angle as its only coordinate.
 
 use super::links::Link;
-use super::ranges::finite;
+use super::ranges::{all_finite, finite};
 use super::tip_line::TipLine;
 use super::{ReferenceError, trajectory};
 use crate::integrators::Ode;
@@ -116,9 +116,7 @@ impl SliderCrank {
         for link in &self.links {
             link.check()?;
         }
-        for value in self.hinges.concat() {
-            finite("hinges", value)?;
-        }
+        all_finite("hinges", self.hinges.as_flattened())?;
         finite("gravity", self.gravity)?;
         finite("torque", self.torque)?;
         finite("angle", self.angle)?;

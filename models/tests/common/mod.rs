@@ -9,6 +9,7 @@ use linchpin_worker::{Inputs, Interval, Model, Setup, Snapshot, Subsystem, setup
 
 pub mod body;
 pub mod motion;
+pub mod spatial;
 
 pub const X: usize = 0;
 pub const V: usize = 1;
