@@ -6,6 +6,7 @@
 //!   to a tolerance of 1e-12;
 //! * [`SliderCrank`]: the same for a mechanism with a slider, with the force in its contact;
 //! * [`MotorDrivenSliderCrank`]: the same on the shaft of a motor with a speed controller;
+//! * [`FourBar`]: a closed loop of bars on a frame that may be shaken, with the force in every hinge;
 //! * [`SpatialChain`]: rigid bodies in space in joints of any kind, with the load in every joint; [`Gimbal`]: a spinning
 //!   top as such a chain;
 //! * [`RigidBody`]: momentum, angular momentum and energy of a body, whose sums stay where no load acts from outside.
@@ -13,6 +14,7 @@
 mod chain;
 mod double_pendulum;
 mod error;
+mod four_bar;
 mod free;
 mod gimbal;
 mod linked;
@@ -30,6 +32,7 @@ mod trajectory;
 pub use chain::Chain;
 pub use double_pendulum::DoublePendulum;
 pub use error::ReferenceError;
+pub use four_bar::{Bar, FourBar, FourBarMotion, Shake, Side};
 pub use free::{FreeOscillation, Motion};
 pub use gimbal::Gimbal;
 pub use linked::{LinkError, LinkedOscillators};

@@ -53,6 +53,19 @@ pub enum ReferenceError {
         /// Number of rates.
         rates: usize,
     },
+    /// A loop of bars that cannot be closed at the start.
+    #[error(
+        "the loop cannot be closed at the start: the tip of the crank is {distance} m from the hinge of the rocker; \
+         coupler and rocker reach distances between {least} m and {most} m, both not included"
+    )]
+    OpenLoop {
+        /// From the tip of the crank to the rocker's hinge in the frame (m).
+        distance: f64,
+        /// Difference of the lengths of coupler and rocker (m).
+        least: f64,
+        /// Their sum (m).
+        most: f64,
+    },
     /// A time that is not finite or lies before the one in front of it.
     #[error("time {place} is {time} s; times must be finite and ascend from {reached} s")]
     Time {
