@@ -46,13 +46,17 @@ pub struct Shake {
 
 /// Crank, coupler and rocker in a loop with a frame, without friction.
 ///
-/// The crank's first hinge and the rocker's first hinge are in the frame; the coupler leads from the tip of the crank to
-/// that of the rocker. With the crank's angle `p` from the x axis, each bar's angle and centre of mass follow from the
-/// closed loop; virtual power leaves
-/// `p'' sum_i (m_i v_i^2 + J_i k_i^2) = torque + sum_i m_i (g - a_i) v_i - J_i b_i k_i`
-/// with the velocity `v_i` of the centre and the rate `k_i` of the angle per unit of `p'`, the accelerations `a_i`, `b_i`
-/// at a constant `p'`, all relative to the frame, and `g = (-x'', -gravity)` for the frame's acceleration `x''`. The
-/// forces in the hinges are what Newton's and Euler's laws of the bars lack.
+/// The crank's first hinge and the rocker's first hinge are in the frame; the coupler leads from the tip of the crank
+/// to that of the rocker. With the crank's angle `p` from the x axis, each bar's angle and centre of mass follow from
+/// the closed loop; virtual power leaves
+///
+/// ```text
+/// p'' sum_i (m_i v_i^2 + J_i k_i^2) = torque + sum_i m_i (g - a_i) v_i - J_i b_i k_i
+/// ```
+///
+/// with the velocity `v_i` of the centre and the rate `k_i` of the angle per unit of `p'`, the accelerations `a_i`,
+/// `b_i` at a constant `p'`, all relative to the frame, and `g = (-x'', -gravity)` for the frame's acceleration `x''`.
+/// The forces in the hinges are what Newton's and Euler's laws of the bars lack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FourBar {
     /// Crank, coupler, rocker.
@@ -78,8 +82,8 @@ pub struct FourBar {
 pub struct FourBarMotion {
     /// Time since the start (s).
     pub t: f64,
-    /// Angles of crank, coupler and rocker from the x axis (rad), continuous; those of coupler and rocker start between -pi
-    /// and pi.
+    /// Angles of crank, coupler and rocker from the x axis (rad), continuous; those of coupler and rocker start between
+    /// -pi and pi.
     pub angles: [f64; 3],
     /// Their rates (rad/s).
     pub rates: [f64; 3],

@@ -10,10 +10,13 @@ use super::spatial_joint::{CompositeJoint, SpatialJoint};
 /// one's x axis by `theta`, in it a top about the inner ring's z axis by `phi`. All axes meet in the origin, where both
 /// rings have their centres of mass; at `psi = theta = phi = 0` all axes are those of space.
 ///
-/// For rings without inertia and a top with the moments `(A, A, C)` about its centre of mass, `I = A + m l^2`, it is the
-/// heavy symmetric top with a fixed point: its spin `C (phi' + psi' cos theta)`, the vertical angular momentum
-/// `I psi' sin^2 theta + C (phi' + psi' cos theta) cos theta` and the energy stay (Goldstein, Classical Mechanics,
-/// Sect. 5.7).
+/// For rings without inertia and a top with the moments `(A, A, C)` about its centre of mass, `I = A + m l^2`, it is
+/// the heavy symmetric top with a fixed point (Goldstein, Classical Mechanics, Sect. 5.7). Its energy stays, and so do
+/// its spin and its vertical angular momentum:
+///
+/// ```text
+/// s = C (phi' + psi' cos theta),   I psi' sin^2 theta + s cos theta
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gimbal {
     /// The outer ring; only its third moment of inertia counts.

@@ -33,8 +33,8 @@ impl RigidBody {
         self.m * motion.velocity
     }
 
-    /// `(r - p) x m v + T J omega` (kg m^2/s), in space, about the point `p` (m) that rests in space; `T` turns from the
-    /// body's axes to those of space.
+    /// `(r - p) x m v + T J omega` (kg m^2/s), in space, about the point `p` (m) that rests in space; `T` turns from
+    /// the body's axes to those of space.
     pub fn angular_momentum(&self, motion: &BodyMotion, about: &Vector3<f64>) -> Vector3<f64> {
         let spin = self.moments.component_mul(&motion.omega);
         (motion.position - about).cross(&self.momentum(motion)) + to_space(&motion.attitude, &spin)

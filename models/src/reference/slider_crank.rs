@@ -42,8 +42,8 @@ pub struct SliderCrankMotion {
     /// Time since the start (s).
     pub t: f64,
     /// Angles of the links from the x axis (rad). That of link 2 points from its hinge to the tip of the crank and is
-    /// continuous; it lies within a quarter turn of the crank's if hinge 2 is inside the circle of the tip, otherwise of
-    /// the direction from hinge 2 to hinge 1 (between -pi and pi).
+    /// continuous; it lies within a quarter turn of the crank's if hinge 2 is inside the circle of the tip, otherwise
+    /// of the direction from hinge 2 to hinge 1 (between -pi and pi).
     pub angles: [f64; 2],
     /// Their rates (rad/s).
     pub rates: [f64; 2],

@@ -18,10 +18,15 @@ use dynamics::Configuration;
 /// friction.
 ///
 /// The coordinates `q` are those of the freedoms of all joints from the ground to the tip. Kane's equations are
-/// `sum_k M_jk q_k'' = sum_i v_ij m_i (g - a_i) - w_ij (J_i alpha_i + omega_i x J_i omega_i)`: `v_ij`, `w_ij` are the velocity
-/// of the centre and the angular velocity of body `i` per unit of the rate `q_j'` (partial velocities),
-/// `M_jk = sum_i m_i v_ij v_ik + w_ij J_i w_ik`, and `a_i`, `alpha_i` are its accelerations at constant rates. The
-/// load in a joint is what the bodies outside of it need by Newton's and Euler's laws besides their weights.
+///
+/// ```text
+/// sum_k M_jk q_k'' = sum_i v_ij m_i (g - a_i) - w_ij (J_i alpha_i + omega_i x J_i omega_i)
+/// M_jk = sum_i m_i v_ij v_ik + w_ij J_i w_ik
+/// ```
+///
+/// `v_ij`, `w_ij` are the velocity of the centre and the angular velocity of body `i` per unit of the rate `q_j'`
+/// (partial velocities), `a_i`, `alpha_i` its accelerations at constant rates. The load in a joint is what the bodies
+/// outside of it need by Newton's and Euler's laws besides their weights.
 ///
 /// Kane & Levinson, Dynamics: Theory and Applications (1985), Sect. 6.1.
 ///

@@ -7,10 +7,10 @@ use super::spatial_chain::{JointedBody, SpatialChain};
 use super::spatial_joint::{CompositeJoint, SpatialJoint};
 
 impl SpatialChain {
-    /// Two bodies with three different moments of inertia each; the first on a hinge in the ground whose axis
-    /// `(1, -2, 4) / sqrt 21` is tilted, the second in a universal joint at its end. The joint's axes, `(2, 1, 0) / sqrt 5` in the
-    /// first body and `(-1, 2, 3) / sqrt 14` in its axes, later in the second body, lie oblique in both; no point lies on a
-    /// principal axis. Gravity 9.81 m/s^2 in -z.
+    /// Two bodies with three different moments of inertia each; the first on a hinge in the ground with the tilted axis
+    /// `(1, -2, 4) / sqrt 21`, the second in a universal joint at its end. The joint's axes, given in the axes of the
+    /// first body, are `(2, 1, 0) / sqrt 5`, fixed in the first, and `(-1, 2, 3) / sqrt 14`, fixed in the second body.
+    /// No point of a joint lies on a principal axis. Gravity 9.81 m/s^2 in -z.
     pub fn universal_double_pendulum() -> Self {
         let axes = [unit(2.0, 1.0, 0.0), unit(-1.0, 2.0, 3.0)];
         double_pendulum(CompositeJoint::Universal(axes), &[0.5, -0.7], &[2.5, -1.7])

@@ -16,9 +16,9 @@ pub enum Freedom {
 
 /// The joint between a body and the one before it, or the ground.
 ///
-/// The frame of the inner body is carried to `inner_point`, moved by one freedom after the other, each along an axis of the
-/// frame as the freedoms before it have turned it, and turned by `attitude`: it is then that of the outer
-/// body at its `outer_point`.
+/// The frame of the inner body is carried to `inner_point`, moved by one freedom after the other, each along an axis of
+/// the frame as the freedoms before it have turned it, and turned by `attitude`: it is then that of the outer body at
+/// its `outer_point`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SpatialJoint {
     /// Point of the joint in the inner body, from its centre of mass, in its axes (m); on the ground from the origin.
@@ -41,8 +41,8 @@ pub enum CompositeJoint {
     Weld,
     /// All attitudes about a common point.
     AtPoint,
-    /// A common point and an axis of each body, at right angles to each other: the first one stays in the inner body, the
-    /// second in the outer one. They must be at right angles.
+    /// A common point and an axis of each body, at right angles to each other: the first one stays in the inner body,
+    /// the second in the outer one. They must be at right angles.
     Universal([UnitVector3<f64>; 2]),
     /// A common axis, no slide.
     Revolute(UnitVector3<f64>),

@@ -20,8 +20,8 @@ pub fn vector_rate<T>(points: &[T], step: f64, value: impl Fn(&T) -> Vector3<f64
     Vector3::from_fn(|axis, _| rate(points, step, |point| value(point)[axis]))
 }
 
-/// Each body of the chain around `t`: its velocities are the rates of its pose, and its momenta change by its weight and
-/// the loads in its joints.
+/// Each body of the chain around `t`: its velocities are the rates of its pose, and its momenta change by its weight
+/// and the loads in its joints.
 pub fn assert_newton_euler(chain: &SpatialChain, t: f64) {
     let step = 4e-4;
     let motions = chain.motions(&times_around(t, step)).unwrap();

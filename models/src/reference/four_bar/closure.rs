@@ -19,8 +19,8 @@ pub struct Closure {
 impl Closure {
     /// Not a number where the loop cannot be closed, infinite where coupler and rocker lie in one line.
     ///
-    /// The loop is `a e(p1) + b e(p2) - c e(p3) = const`. Derived, its component along the rocker gives the coupler's rate,
-    /// that along the coupler the rocker's; derived twice, their angular accelerations.
+    /// The loop is `a e(p1) + b e(p2) - c e(p3) = const`. Derived, its component along the rocker gives the coupler's
+    /// rate, that along the coupler the rocker's; derived twice, their angular accelerations.
     pub fn new(linkage: &FourBar, angle: f64, rate: f64) -> Self {
         let angles = angles(linkage, angle);
         let [first, second, third] = angles;
