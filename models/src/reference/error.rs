@@ -15,6 +15,33 @@ pub enum ReferenceError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// A parameter of one of several bodies out of its range.
+    #[error("body {body} (from 0) has {field} = {value}; it must be {allowed}")]
+    BodyOutOfRange {
+        /// Number of the body, from 0.
+        body: usize,
+        /// Name of the parameter.
+        field: &'static str,
+        /// The value given.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// No body at all.
+    #[error("there is no body; at least one is needed")]
+    NoBody,
+    /// Coordinates or rates that are not one for each freedom of the joints.
+    #[error(
+        "{given} {field} at the start, but the joints have {freedoms} freedoms; each needs one"
+    )]
+    NotOnePerFreedom {
+        /// `coordinates` or `rates`.
+        field: &'static str,
+        /// How many are given.
+        given: usize,
+        /// How many freedoms there are.
+        freedoms: usize,
+    },
     /// No link at all.
     #[error("there is no link; at least one is needed")]
     NoLink,
@@ -25,6 +52,19 @@ pub enum ReferenceError {
         angles: usize,
         /// Number of rates.
         rates: usize,
+    },
+    /// A loop of bars that cannot be closed at the start.
+    #[error(
+        "the loop cannot be closed at the start: the tip of the crank is {distance} m from the hinge of the rocker; \
+         coupler and rocker reach distances between {least} m and {most} m, both not included"
+    )]
+    OpenLoop {
+        /// From the tip of the crank to the rocker's hinge in the frame (m).
+        distance: f64,
+        /// Difference of the lengths of coupler and rocker (m).
+        least: f64,
+        /// Their sum (m).
+        most: f64,
     },
     /// A time that is not finite or lies before the one in front of it.
     #[error("time {place} is {time} s; times must be finite and ascend from {reached} s")]
@@ -44,4 +84,23 @@ pub enum ReferenceError {
         /// Why.
         cause: Cause,
     },
+}
+
+impl ReferenceError {
+    /// The same mistake in body number `body` (from 0).
+    pub(super) fn in_body(self, body: usize) -> Self {
+        match self {
+            Self::OutOfRange {
+                field,
+                value,
+                allowed,
+            } => Self::BodyOutOfRange {
+                body,
+                field,
+                value,
+                allowed,
+            },
+            other => other,
+        }
+    }
 }

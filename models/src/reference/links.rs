@@ -1,5 +1,6 @@
 //! What references of linked pendulums share.
 
+use super::ranges::{finite, not_negative, positive};
 use super::{ReferenceError, trajectory};
 use crate::integrators::Ode;
 
@@ -12,6 +13,14 @@ pub struct Link {
     pub inertia: f64,
     /// Length (m), positive.
     pub length: f64,
+}
+
+impl Link {
+    pub(super) fn check(&self) -> Result<(), ReferenceError> {
+        positive("m", self.m)?;
+        not_negative("inertia", self.inertia)?;
+        positive("length", self.length)
+    }
 }
 
 /// The torsional spring and damper between the ground and the first link.
@@ -63,7 +72,7 @@ pub(super) trait LinkedPendulum: Ode + Sized {
     }
 }
 
-/// The rules of numbers that references are built from.
+/// The rules of the numbers of linked pendulums.
 pub(super) fn check_links<'a>(
     links: impl Iterator<Item = &'a Link>,
     hinge: &GroundHinge,
@@ -71,9 +80,7 @@ pub(super) fn check_links<'a>(
     start: impl Iterator<Item = f64>,
 ) -> Result<(), ReferenceError> {
     for link in links {
-        positive("m", link.m)?;
-        not_negative("inertia", link.inertia)?;
-        positive("length", link.length)?;
+        link.check()?;
     }
     not_negative("spring", hinge.spring)?;
     not_negative("damping", hinge.damping)?;
@@ -83,33 +90,4 @@ pub(super) fn check_links<'a>(
         finite("start", value)?;
     }
     Ok(())
-}
-
-fn positive(field: &'static str, value: f64) -> Result<(), ReferenceError> {
-    let allowed = "a finite number greater than 0";
-    rule(field, value, allowed, value > 0.0)
-}
-
-fn not_negative(field: &'static str, value: f64) -> Result<(), ReferenceError> {
-    rule(field, value, "a finite number, 0 or greater", value >= 0.0)
-}
-
-fn finite(field: &'static str, value: f64) -> Result<(), ReferenceError> {
-    rule(field, value, "a finite number", true)
-}
-
-fn rule(
-    field: &'static str,
-    value: f64,
-    allowed: &'static str,
-    is_allowed: bool,
-) -> Result<(), ReferenceError> {
-    if is_allowed && value.is_finite() {
-        return Ok(());
-    }
-    Err(ReferenceError::OutOfRange {
-        field,
-        value,
-        allowed,
-    })
 }

@@ -7,7 +7,19 @@ use crate::integrators::radau::{Radau, Tolerances};
 /// Relative and absolute error tolerance of a step.
 const TOLERANCE: f64 = 1e-12;
 
-/// The states of `ode` at `times` (s), from `start` at time 0.
+/// An equation whose interval begins at `start` (s): the time that it is asked at counts from 0.
+struct Since<'a, O> {
+    ode: &'a O,
+    start: f64,
+}
+
+impl<O: Ode> Ode for Since<'_, O> {
+    fn derivative(&self, tau: f64, y: &[f64], dy: &mut [f64]) {
+        self.ode.derivative(self.start + tau, y, dy);
+    }
+}
+
+/// The states of `ode` at `times` (s), from `start` at time 0, from which the time of the equation counts.
 ///
 /// # Errors
 /// [`ReferenceError`] if the times do not ascend from 0, or the integration fails.
@@ -31,8 +43,12 @@ pub fn states(
                 reached,
             });
         }
+        let since = Since {
+            ode,
+            start: reached,
+        };
         radau
-            .integrate(ode, time - reached, &mut state)
+            .integrate(&since, time - reached, &mut state)
             .map_err(|error| ReferenceError::Integration {
                 t: reached + error.tau,
                 cause: error.cause,

@@ -8,6 +8,8 @@ use linchpin_proto::v1;
 use linchpin_worker::{Inputs, Interval, Model, Setup, Snapshot, Subsystem, setup::SetupError};
 
 pub mod body;
+pub mod motion;
+pub mod spatial;
 
 pub const X: usize = 0;
 pub const V: usize = 1;
