@@ -118,22 +118,22 @@ fn wrong_places_are_named(serve: Serve) {
             (
                 changed(|load| load.partner_position = vec![3]),
                 "joint_loads[1].partner_position",
-                &["1 signals", "needs 2"],
+                &["the length 1", "needs 2"],
             ),
             (
                 changed(|load| load.partner_position.clear()),
                 "joint_loads[1].partner_position",
-                &["0 signals", "needs 2"],
+                &["the length 0", "needs 2"],
             ),
             (
                 changed(|load| load.partner_rotation = vec![3, 4, 5]),
                 "joint_loads[1].partner_rotation",
-                &["3 signals", "needs 1"],
+                &["the length 3", "needs 1"],
             ),
             (
                 changed(|load| load.partner_attitude = vec![2, 3, 4, 5]),
                 "joint_loads[1].partner_attitude",
-                &["4 signals", "must be empty", "planar"],
+                &["the length 4", "must be empty", "planar"],
             ),
             (
                 changed(|load| {
@@ -141,22 +141,22 @@ fn wrong_places_are_named(serve: Serve) {
                     load.partner_position.push(5);
                 }),
                 "joint_loads[1].partner_position",
-                &["3 signals", "2 or none"],
+                &["the length 3", "2 or none"],
             ),
             (
                 spatial(|load| load.partner_position.truncate(2)),
                 "joint_loads[0].partner_position",
-                &["2 signals", "needs 3"],
+                &["the length 2", "needs 3"],
             ),
             (
                 spatial(|load| load.partner_rotation.truncate(1)),
                 "joint_loads[0].partner_rotation",
-                &["1 signals", "needs 3"],
+                &["the length 1", "needs 3"],
             ),
             (
                 spatial(|load| load.partner_attitude.clear()),
                 "joint_loads[0].partner_attitude",
-                &["0 signals", "needs 4"],
+                &["the length 0", "needs 4"],
             ),
         ],
     );
@@ -210,14 +210,14 @@ const AXES: Law = Law::Perpendicular {
 };
 
 fn markers_that_do_not_fit_are_named(serve: Serve) {
-    let cases: [(&str, usize, Law, End, bool, [&str; 2]); 11] = [
+    let cases = [
         (
             "planar-point",
             2,
             ALONG,
             End::A,
             true,
-            ["position", "2 variables"],
+            ["position", "the length 2"],
         ),
         (
             "planar-point",
