@@ -10,7 +10,7 @@ use crate::JointLoad;
 
 pub use values::Values;
 
-/// Parameters, solver and start time of a new instance. Defaults of the description are filled in.
+/// Parameters, solver, start time and joint loads of a new instance. Defaults of the description are filled in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     pub(crate) parameters: BTreeMap<String, v1::Value>,
