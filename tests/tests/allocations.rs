@@ -9,6 +9,10 @@ use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
 use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Override, Scene, parse};
+use linchpin_proto::contract::Contract;
+use linchpin_proto::v1;
+use linchpin_proto::version::PROTOCOL;
+use linchpin_worker::Host;
 
 const SCENE: &str = include_str!("../../scenes/oscillator.toml");
 
@@ -88,5 +92,99 @@ fn a_macro_step_allocates_nothing() {
         ],
     ] {
         assert_eq!(allocations_per_100_steps(method), 0, "{method:?}");
+    }
+}
+
+/// An instance of a model under a joint load that reads all of its partner's pose.
+fn joined(model: &str, signals: [&[u32]; 3], axis: [f64; 3]) -> v1::InitializeRequest {
+    let number = |value| v1::Value {
+        kind: Some(v1::value::Kind::Number(value)),
+    };
+    let table = |names: &[&str]| {
+        names
+            .iter()
+            .map(|&name| (name.into(), number(0.7)))
+            .collect()
+    };
+    let load = v1::JointLoad {
+        marker: "end".into(),
+        law: v1::JointLaw::Inplane.into(),
+        end: v1::JointEnd::B.into(),
+        point_a: vec![0.3, 0.2, 0.0],
+        point_b: vec![0.0; 3],
+        axis_b: axis.to_vec(),
+        multiplier: 0,
+        partner_position: signals[0].to_vec(),
+        partner_rotation: signals[1].to_vec(),
+        partner_attitude: signals[2].to_vec(),
+        ..v1::JointLoad::default()
+    };
+    v1::InitializeRequest {
+        instance: 1,
+        protocol: Some(PROTOCOL),
+        model: model.into(),
+        parameters: match model {
+            "planar-body" => table(&["m", "inertia", "length"]),
+            _ => table(&["m", "j1", "j2", "j3"]),
+        },
+        solver: Some(v1::Solver {
+            kind: "rk4".into(),
+            options: [("step".into(), number(1e-3))].into(),
+        }),
+        coupling_outputs: vec!["end_x".into(), "end_ax".into()],
+        joint_inputs: (0..11).map(|input| input.to_string()).collect(),
+        joint_loads: vec![load],
+        ..v1::InitializeRequest::default()
+    }
+}
+
+/// Steps and looks ahead, also with a perturbed multiplier, as often as told.
+fn exchange(host: &Host, request: &mut v1::ExchangeRequest, turns: usize) {
+    let mut reply = v1::ExchangeReply::default();
+    let mut before = 0;
+    for turn in 0..WARM_UP + turns {
+        if turn == WARM_UP {
+            before = ALLOCATIONS.get();
+        }
+        request.sequence += 1;
+        host.exchange(request, &mut reply).unwrap();
+    }
+    assert_eq!(ALLOCATIONS.get() - before, 0, "{request:?}");
+}
+
+#[test]
+fn joint_loads_allocate_nothing() {
+    let planar = joined("planar-body", [&[1, 2], &[3], &[]], [0.6, 0.8, 0.0]);
+    let spatial = joined(
+        "spatial-body",
+        [&[1, 2, 3], &[4, 5, 6], &[7, 8, 9, 10]],
+        [0.6, 0.0, 0.8],
+    );
+    for instance in [planar, spatial] {
+        let host = Host::new(linchpin_models::models());
+        host.initialize(&instance).unwrap();
+        let signals: Vec<v1::Signal> = { 0..11 }
+            .map(|input| v1::Signal {
+                input,
+                nodes: vec![1e-2, 0.0],
+                values: vec![0.1 * f64::from(input), 0.3],
+            })
+            .collect();
+        let mut request = v1::ExchangeRequest {
+            instance: 1,
+            advance: Some(v1::Advance {
+                t: 0.0,
+                step: 1e-2,
+                signals: signals.clone(),
+            }),
+            predict: Some(v1::Predict {
+                t: 1e-2,
+                step: 1e-2,
+                perturbed: signals[..2].to_vec(),
+                signals,
+            }),
+            ..v1::ExchangeRequest::default()
+        };
+        exchange(&host, &mut request, 100);
     }
 }

@@ -10,7 +10,7 @@ use crate::JointLoad;
 
 pub use values::Values;
 
-/// Parameters, solver and start time of a new instance. Defaults of the description are filled in.
+/// Parameters, solver, start time and joint loads of a new instance. Defaults of the description are filled in.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     pub(crate) parameters: BTreeMap<String, v1::Value>,
@@ -53,6 +53,16 @@ pub enum SetupError {
         /// What is allowed.
         expected: &'static str,
     },
+    /// A text that is none of those allowed.
+    #[error("{field} = \"{value}\" is unknown; known: {known}")]
+    UnknownText {
+        /// Place.
+        field: String,
+        /// The text given.
+        value: String,
+        /// What is allowed, separated by commas.
+        known: String,
+    },
     /// A number out of its range.
     #[error("{field} = {value} is out of range: {allowed}")]
     OutOfRange {
@@ -72,6 +82,7 @@ impl SetupError {
             Self::Missing { field }
             | Self::Unknown { field, .. }
             | Self::WrongType { field, .. }
+            | Self::UnknownText { field, .. }
             | Self::OutOfRange { field, .. } => field,
             Self::UnknownSolver { .. } => "solver.kind",
         }
@@ -171,6 +182,11 @@ impl Setup {
         &self.solver
     }
 
+    /// All parameters.
+    pub fn parameters(&self) -> Values<'_> {
+        Values::parameters(&self.parameters)
+    }
+
     /// A parameter that is a number.
     pub fn parameter(&self, name: &str) -> Result<f64, SetupError> {
         self.parameters().number(name)
@@ -210,10 +226,6 @@ impl Setup {
     pub fn positive_option(&self, name: &str) -> Result<f64, SetupError> {
         let options = Values::options(&self.options);
         options.number_in(name, "it must be greater than 0", |value| value > 0.0)
-    }
-
-    fn parameters(&self) -> Values<'_> {
-        Values::parameters(&self.parameters)
     }
 }
 

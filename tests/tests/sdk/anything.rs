@@ -4,7 +4,7 @@ use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1;
 use proptest::prelude::*;
 
-use crate::driver::{Driver, number, oscillator, tank};
+use crate::driver::{Driver, constant, number, oscillator, tank};
 use crate::peer::host;
 use crate::tank::START;
 
@@ -122,6 +122,65 @@ fn make(calls: &dyn Contract, call: &Call) -> Result<(), CallError> {
     }
 }
 
+fn vector() -> impl Strategy<Value = Vec<f64>> {
+    prop_oneof![
+        15 => Just(vec![0.6, 0.8, 0.0]),
+        1 => Just(vec![0.0; 3]),
+        1 => proptest::collection::vec(numbers(), 0..5),
+    ]
+}
+
+fn places(len: usize) -> impl Strategy<Value = Vec<u32>> {
+    prop_oneof![
+        15 => proptest::collection::vec(0u32..11, len),
+        1 => Just(Vec::new()),
+        1 => proptest::collection::vec(any::<u32>(), 0..6),
+    ]
+}
+
+prop_compose! {
+    /// Mostly one that the end of a planar body or a body in space can take.
+    fn joint_load()(
+        is_planar in any::<bool>(), law in 0..4i32, end in 0..3i32, multiplier in 0..12u32,
+        [point_a, point_b, axis_a, axis_b] in [vector(), vector(), vector(), vector()],
+        [planar, spatial] in [[places(2), places(1), places(0)], [places(3), places(3), places(4)]],
+    ) -> (&'static str, v1::JointLoad) {
+        let (model, places) = if is_planar { ("planar-body", planar) } else { ("spatial-body", spatial) };
+        let [partner_position, partner_rotation, partner_attitude] = places;
+        let marker = "end".to_owned();
+        (model, v1::JointLoad {
+            marker, law, end, point_a, point_b, axis_a, axis_b, multiplier,
+            partner_position, partner_rotation, partner_attitude,
+        })
+    }
+}
+
+/// An instance with ten joint inputs behind one input.
+fn joined(model: &str, load: v1::JointLoad) -> v1::InitializeRequest {
+    let needed = ["m", "j1", "j2", "j3", "inertia", "length"];
+    let known = host()
+        .describe(&v1::DescribeRequest::default())
+        .unwrap()
+        .models;
+    let parameters = { known.into_iter() }
+        .find(|own| own.name == model)
+        .unwrap()
+        .parameters;
+    let parameters = parameters
+        .into_iter()
+        .filter(|own| needed.contains(&own.name.as_str()));
+    v1::InitializeRequest {
+        model: model.into(),
+        parameters: parameters.map(|own| (own.name, number(0.7))).collect(),
+        solver: None,
+        inputs: vec!["end_fx".into()],
+        coupling_outputs: vec!["end_x".into()],
+        joint_inputs: (0..10).map(|input| input.to_string()).collect(),
+        joint_loads: vec![load],
+        ..tank(5)
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
@@ -175,4 +234,33 @@ proptest! {
             Err(other) => panic!("{other}"),
         }
     }
+
+    #[test]
+    fn any_joint_load_is_answered(
+        (model, load) in joint_load(), values in proptest::collection::vec(numbers(), 11),
+    ) {
+        let host = host();
+        let request = joined(model, load);
+        if let Err(CallError::Failed(failure)) = host.initialize(&request) {
+            prop_assert!(failure.field.is_some(), "{:?}", failure);
+            return Ok(());
+        }
+        let signals = || (0..).zip(&values).map(|(place, &value)| constant(place, value)).collect();
+        let step = v1::StepRequest { instance: 5, sequence: request.sequence + 1, step: 1e-3, signals: signals(),
+            ..v1::StepRequest::default() };
+        for call in [look_at(signals()), Call::Step(step), look_at(signals())] {
+            if let Err(CallError::Failed(failure)) = make(&*host, &call) {
+                prop_assert!(!failure.message.contains("panicked"), "{:?}: {:?}", call, failure);
+            }
+        }
+    }
+}
+
+fn look_at(signals: Vec<v1::Signal>) -> Call {
+    Call::Evaluate(v1::EvaluateRequest {
+        instance: 5,
+        t: 0.0,
+        signals,
+        outputs: vec!["end_ax".into(), "end_x".into()],
+    })
 }

@@ -38,17 +38,18 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             "pendulum",
             "planar-body",
             "spatial-body",
+            "stand",
             "tank"
         ]
     );
     for model in &reply.models {
-        let repeats_step_sequence = model.name != "tank";
+        let repeats_step_sequence = !["stand", "tank"].contains(&model.name.as_str());
         let expected = v1::Capabilities {
             exchange: true,
             repeats_step_sequence,
             max_input_degree: 7,
             exportable_snapshot: false,
-            joint_loads: ["pendulum", "planar-body", "spatial-body"].contains(&model.name.as_str()),
+            joint_loads: !["oscillator", "tank"].contains(&model.name.as_str()),
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }

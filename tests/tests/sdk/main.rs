@@ -3,10 +3,13 @@
 #![allow(clippy::unwrap_used)]
 
 mod anything;
+mod descriptions;
 mod driver;
 mod exchange;
 mod initialize;
 mod instances;
+mod joint_load_mistakes;
+mod joint_loads;
 mod peer;
 mod repeated_steps;
 mod scripted;
@@ -14,6 +17,7 @@ mod sequence;
 mod serving;
 mod signals;
 mod snapshots;
+mod stand;
 mod tank;
 
 /// Makes two tests of every function: with the contract in this process, and behind a server on a Unix socket.

@@ -15,19 +15,21 @@ use linchpin_worker::server::{Address, Reach, Server};
 use tempfile::TempDir;
 use tokio::sync::oneshot;
 
+use crate::stand::Stand;
 use crate::tank::Tank;
 
 /// How a test reaches its worker.
 pub type Serve = fn(Arc<dyn Contract>) -> Peer;
 
-/// The built-in models and the tank, with the default limits.
+/// The built-in models, the stand and the tank, with the default limits.
 pub fn host() -> Arc<Host> {
     host_with(Limits::default())
 }
 
-/// The built-in models and the tank.
+/// The built-in models, the stand and the tank.
 pub fn host_with(limits: Limits) -> Arc<Host> {
     let mut all = models();
+    all.push(Box::new(Stand));
     all.push(Box::new(Tank));
     Arc::new(Host::with_limits(all, limits))
 }

@@ -115,26 +115,20 @@ impl Reader<'_> {
         let (points, orientations) = marker.space.components();
         let (forces, moments) = marker.space.load_components();
         let has_force = !matches!(law.law, Law::Perpendicular { .. });
-        let offered = [
-            (own.position, "position", marker.position.len(), points),
-            (
-                own.rotation,
-                "position",
-                marker.position.len(),
-                orientations,
-            ),
-            (has_force, "load", marker.load.len(), forces),
-            (own.rotation, "load", marker.load.len(), moments),
+        let (position, load) = (marker.position.len(), marker.load.len());
+        let lists = [
+            (own.position, "position", position, points),
+            (own.rotation, "position", position, orientations),
+            (has_force, "load", load, forces),
+            (own.rotation, "load", load, moments),
         ];
-        for (is_needed, list, offered, needed) in offered {
-            if is_needed && offered < needed {
-                return Err(self.misuse(
-                    "marker",
-                    format!(
-                        "{} of the marker \"{}\" names {offered} variables, but this load needs {needed}",
-                        list, marker.name
-                    ),
-                ));
+        for (is_needed, list, length, needed) in lists {
+            if is_needed && length < needed {
+                let name = &marker.name;
+                let message = format!(
+                    "the list {list} of the marker \"{name}\" has the length {length}; this load needs {needed}"
+                );
+                return Err(self.misuse("marker", message));
             }
         }
         Ok(())
@@ -170,69 +164,55 @@ impl Reader<'_> {
     }
 
     fn planar_partner(&self, reads: Reads) -> Result<Partner, Failure> {
-        let message = self.message;
-        self.list::<0>("partner_attitude", &message.partner_attitude, false)?;
-        let position = self.list(
-            "partner_position",
-            &message.partner_position,
-            reads.position,
-        )?;
-        let angle = self.list(
-            "partner_rotation",
-            &message.partner_rotation,
-            reads.rotation,
-        )?;
+        let [position, rotation, attitude] = self.partner_lists();
+        self.list::<0>(attitude, false)?;
         Ok(Partner::Planar {
-            position: position.filter(|_| reads.position),
-            angle: angle.filter(|_| reads.rotation).map(|[angle]| angle),
+            position: self.list(position, reads.position)?,
+            angle: self.list(rotation, reads.rotation)?.map(|[angle]| angle),
         })
     }
 
     fn spatial_partner(&self, reads: Reads) -> Result<Partner, Failure> {
-        let message = self.message;
-        let position = self.list(
-            "partner_position",
-            &message.partner_position,
-            reads.position,
-        )?;
-        let rotation = self.list(
-            "partner_rotation",
-            &message.partner_rotation,
-            reads.rotation,
-        )?;
-        let attitude = self.list(
-            "partner_attitude",
-            &message.partner_attitude,
-            reads.rotation,
-        )?;
-        let orientation = rotation.zip(attitude).filter(|_| reads.rotation);
+        let [position, rotation, attitude] = self.partner_lists();
+        let rotation = self.list(rotation, reads.rotation)?;
+        let attitude = self.list(attitude, reads.rotation)?;
+        let orientation = rotation.zip(attitude);
         Ok(Partner::Spatial {
-            position: position.filter(|_| reads.position),
+            position: self.list(position, reads.position)?,
             orientation: orientation.map(|(rotation, attitude)| Orientation { attitude, rotation }),
         })
     }
 
-    /// `N` places, or none if the law does not read them.
+    fn partner_lists(&self) -> [(&'static str, &[u32]); 3] {
+        [
+            ("partner_position", &self.message.partner_position),
+            ("partner_rotation", &self.message.partner_rotation),
+            ("partner_attitude", &self.message.partner_attitude),
+        ]
+    }
+
+    /// `N` places if the load depends on them. If not, they may be missing.
     fn list<const N: usize>(
         &self,
-        field: &str,
-        places: &[u32],
+        (field, places): (&str, &[u32]),
         is_read: bool,
     ) -> Result<Option<[usize; N]>, Failure> {
-        if let Ok(places) = <[u32; N]>::try_from(places) {
-            return self.places(field, places).map(Some);
-        }
         if places.is_empty() && !is_read {
             return Ok(None);
+        }
+        if let Ok(places) = <[u32; N]>::try_from(places) {
+            let found = self.places(field, places)?;
+            return Ok(is_read.then_some(found));
         }
         let allowed = match (N, is_read) {
             (0, _) => "it must be empty on a planar marker".to_owned(),
             (_, true) => format!("this load needs {N}"),
             (_, false) => format!("{N} or none are allowed"),
         };
+        let length = places.len();
         Err(self.misuse(
             field,
-            format!("it lists {} signals; {allowed}", places.len()),
+            format!("the list has the length {length}; {allowed}"),
         ))
     }
 

@@ -72,6 +72,22 @@ impl<'a> Values<'a> {
         }
     }
 
+    /// A text that is one of `known`.
+    ///
+    /// # Errors
+    /// As [`Values::text`], and if it is none of them.
+    pub fn one_of(&self, name: &str, known: &[&str]) -> Result<&'a str, SetupError> {
+        let text = self.text(name)?;
+        if known.contains(&text) {
+            return Ok(text);
+        }
+        Err(SetupError::UnknownText {
+            field: self.field(name),
+            value: text.to_owned(),
+            known: known.join(", "),
+        })
+    }
+
     /// A list of finite numbers, of any length.
     ///
     /// # Errors
