@@ -97,7 +97,7 @@ impl System {
         }
         for exchanged in &layout.exchanged {
             let shown = exchanged.read(outputs(exchanged.subsystem), point.attitudes, point.w);
-            for (component, shown) in shown.iter().take(exchanged.len()).enumerate() {
+            for (component, shown) in shown.iter().take(exchanged.size()).enumerate() {
                 let variable = exchanged.first + component;
                 for &level in self.level.up_to() {
                     self.residuals[level as usize][variable] = point.w[variable] - shown;
@@ -179,7 +179,7 @@ impl System {
     ) {
         for exchanged in &layout.exchanged {
             let own = outputs(exchanged.subsystem);
-            for _ in 0..exchanged.len() {
+            for _ in 0..exchanged.size() {
                 self.add(slot, [1.0; 3]);
                 slot += 1;
             }
@@ -189,7 +189,7 @@ impl System {
                     continue;
                 }
                 let change = exchanged.change(own, point.attitudes, point.w, column);
-                for component in 0..exchanged.len() {
+                for component in 0..exchanged.size() {
                     slot = self.spread(input, [-change[component]; 3], slot);
                 }
             }
@@ -289,7 +289,7 @@ fn visit_entries(layout: &Layout, visit: &mut dyn FnMut(usize, usize)) {
 }
 
 fn visit_exchanged(layout: &Layout, exchanged: &Exchanged, visit: &mut dyn FnMut(usize, usize)) {
-    let own = exchanged.first..exchanged.first + exchanged.len();
+    let own = exchanged.first..exchanged.first + exchanged.size();
     own.clone().for_each(|variable| visit(variable, variable));
     let mut variables = Vec::new();
     let perturbed = layout.inputs_of(exchanged.subsystem).iter();

@@ -6,14 +6,17 @@ use crate::mechanics::describe::{at_zero, gravity, needed, output, state};
 use crate::mechanics::markers::PLANAR;
 use crate::mechanics::solvers;
 
-/// Place of the angle among the outputs, behind those of the marker.
-pub const ANGLE: usize = PLANAR.outputs_per_marker();
+/// Outputs of one marker.
+pub const OUTPUTS_PER_MARKER: usize = PLANAR.outputs_per_marker();
+/// Place of the angle among the outputs, behind those of the markers.
+pub const ANGLE: usize = 2 * OUTPUTS_PER_MARKER;
 /// Place of its rate.
 pub const RATE: usize = ANGLE + 1;
 /// Place of the energy.
 pub const ENERGY: usize = ANGLE + 2;
 
 const TIP: &str = "tip";
+const CENTRE: &str = "centre";
 
 pub fn model() -> v1::Model {
     v1::Model {
@@ -21,10 +24,14 @@ pub fn model() -> v1::Model {
         description:
             "Rigid link in the plane on a hinge in the ground, with a torsional spring and damper"
                 .to_owned(),
-        inputs: PLANAR.loads(TIP).collect(),
-        outputs: PLANAR.outputs(TIP).chain(own_outputs()).collect(),
+        inputs: PLANAR.loads(TIP).chain(PLANAR.loads(CENTRE)).collect(),
+        outputs: PLANAR
+            .outputs(TIP)
+            .chain(PLANAR.outputs(CENTRE))
+            .chain(own_outputs())
+            .collect(),
         parameters: parameters(),
-        markers: vec![PLANAR.marker(TIP)],
+        markers: vec![PLANAR.marker(TIP), PLANAR.marker(CENTRE)],
         solvers: solvers::descriptions(),
         states: vec![state("angle", "angle0"), state("rate", "rate0")],
         capabilities: Some(solvers::capabilities()),

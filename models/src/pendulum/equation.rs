@@ -4,12 +4,15 @@ use linchpin_worker::Setup;
 use linchpin_worker::setup::SetupError;
 use nalgebra::DMatrix;
 
-use super::description::{ANGLE, ENERGY, RATE};
+use super::description::{ANGLE, ENERGY, OUTPUTS_PER_MARKER, RATE};
 use crate::mechanics::equation::EquationOfMotion;
 use crate::mechanics::planar::{AxisPoint, Triple};
 
 /// Angle (rad) and its rate (rad/s).
 type State = [f64; 2];
+
+/// Loads at the tip and at the centre of mass.
+type Loads = [f64; 6];
 
 /// A link on a hinge in the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,6 +53,20 @@ impl HingedLink {
         [0.0, -self.mass * self.gravity, 0.0]
     }
 
+    fn sum(&self, loads: &Loads, of: impl Fn(AxisPoint, Triple) -> f64) -> f64 {
+        let &[
+            fx_tip,
+            fy_tip,
+            moment_tip,
+            fx_centre,
+            fy_centre,
+            moment_centre,
+        ] = loads;
+        of(self.tip, [fx_tip, fy_tip, moment_tip])
+            + of(self.centre, [fx_centre, fy_centre, moment_centre])
+            + of(self.centre, self.weight())
+    }
+
     fn energy(&self, &[angle, rate]: &State) -> f64 {
         let [_, height, _] = self.centre.position([self.hinge[0], self.hinge[1], angle]);
         let turn = angle - self.rest_angle;
@@ -60,35 +77,35 @@ impl HingedLink {
 
 impl EquationOfMotion for HingedLink {
     type State = State;
-    type Inputs = Triple;
+    type Inputs = Loads;
 
     const STATE_NAMES: &'static [&'static str] = &["angle", "rate"];
 
-    fn rate(&self, &[angle, rate]: &State, &load: &Triple) -> State {
-        let moment = self.centre.moment(angle, self.weight()) + self.tip.moment(angle, load)
+    fn rate(&self, &[angle, rate]: &State, loads: &Loads) -> State {
+        let moment = self.sum(loads, |point, load| point.moment(angle, load))
             - self.spring * (angle - self.rest_angle)
             - self.damping * rate;
         [rate, moment / self.inertia]
     }
 
-    fn jacobian(&self, &[angle, _]: &State, &load: &Triple, jacobian: &mut DMatrix<f64>) {
-        let moment_by_angle = self.centre.moment_by_angle(angle, self.weight())
-            + self.tip.moment_by_angle(angle, load)
-            - self.spring;
+    fn jacobian(&self, &[angle, _]: &State, loads: &Loads, jacobian: &mut DMatrix<f64>) {
+        let moment_by_angle =
+            self.sum(loads, |point, load| point.moment_by_angle(angle, load)) - self.spring;
         jacobian[(0, 0)] = 0.0;
         jacobian[(0, 1)] = 1.0;
         jacobian[(1, 0)] = moment_by_angle / self.inertia;
         jacobian[(1, 1)] = -self.damping / self.inertia;
     }
 
-    fn output(&self, state: &State, load: &Triple, output: usize) -> Option<f64> {
+    fn output(&self, state: &State, loads: &Loads, output: usize) -> Option<f64> {
         let &[angle, rate] = state;
         Some(match output {
             0..ANGLE => {
                 let [x, y] = self.hinge;
-                let acceleration = || [0.0, 0.0, self.rate(state, load)[1]];
-                self.tip
-                    .output(output, [x, y, angle], [0.0, 0.0, rate], acceleration)
+                let acceleration = || [0.0, 0.0, self.rate(state, loads)[1]];
+                let marker = [self.tip, self.centre][output / OUTPUTS_PER_MARKER];
+                let component = output % OUTPUTS_PER_MARKER;
+                marker.output(component, [x, y, angle], [0.0, 0.0, rate], acceleration)
             }
             ANGLE => angle,
             RATE => rate,
@@ -116,6 +133,6 @@ mod tests {
             damping: 0.83,
             rest_angle: 0.3,
         };
-        assert_jacobian(&link, &[1.1, -4.0], &[3.1, -1.7, 0.9]);
+        assert_jacobian(&link, &[1.1, -4.0], &[3.1, -1.7, 0.9, -0.8, 2.2, 0.7]);
     }
 }

@@ -41,7 +41,7 @@ pub enum What {
 
 impl Exchanged {
     /// Number of variables.
-    pub fn len(&self) -> usize {
+    pub fn size(&self) -> usize {
         match self.what {
             What::Output(_) => 1,
             What::Attitude { .. } => 3,

@@ -133,7 +133,7 @@ pub enum Lack {
 impl Layout {
     /// Number of coupling variables.
     pub fn variables(&self) -> usize {
-        let exchanged = self.exchanged.iter().map(Exchanged::len);
+        let exchanged = self.exchanged.iter().map(Exchanged::size);
         self.rows.len() + exchanged.sum::<usize>()
     }
 
@@ -186,7 +186,7 @@ impl Layout {
             return self.column_name(variable, "lambda");
         }
         let mut exchanged = self.exchanged.iter();
-        let own = exchanged.find(|one| (one.first..one.first + one.len()).contains(&variable));
+        let own = exchanged.find(|one| (one.first..one.first + one.size()).contains(&variable));
         own.map_or_else(String::new, |exchanged| exchanged.name.clone())
     }
 
