@@ -3,10 +3,10 @@
 use linchpin_proto::v1::{self, MarkerKind};
 
 use crate::coupling::layout::MarkedJoint;
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 
 /// All markers that the subsystems of a scene describe, and the joints between them.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Mechanism {
     /// Names of the subsystems in the order of the scene.
     pub subsystems: Vec<String>,
@@ -30,12 +30,14 @@ pub struct RecordedMarker {
 }
 
 /// A joint and the markers that it holds.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RecordedJoint {
     /// Name in the scene.
     pub name: String,
     /// Places of the markers of ends a and b in [`Mechanism::markers`].
     pub ends: [usize; 2],
+    /// Where it holds, in the axes of these markers (m).
+    pub points: [[f64; 3]; 2],
 }
 
 impl Mechanism {
@@ -57,7 +59,7 @@ impl Mechanism {
                 columns: columns_of(columns, &subsystems[subsystem], &marker.position),
             })
             .collect();
-        let joint = |joint: &MarkedJoint| {
+        let joint = |(written, joint): (&scene::Joint, &MarkedJoint)| {
             let place = |(subsystem, marker): &(usize, v1::Marker)| {
                 let mut all = markers.iter();
                 all.position(|own| own.subsystem == *subsystem && own.name == marker.name)
@@ -65,14 +67,26 @@ impl Mechanism {
             Some(RecordedJoint {
                 name: joint.name.clone(),
                 ends: [place(&joint.ends[0])?, place(&joint.ends[1])?],
+                points: written.geometry.points.each_ref().map(point),
             })
         };
         Self {
-            joints: joints.iter().filter_map(joint).collect(),
+            joints: scene.joints.iter().zip(joints).filter_map(joint).collect(),
             subsystems,
             markers,
         }
     }
+}
+
+/// A point as the scene gives it; those in the plane have no third coordinate, and the marker itself is the default.
+fn point(given: &Option<Vec<f64>>) -> [f64; 3] {
+    let mut point = [0.0; 3];
+    let coordinates = given.iter().flatten();
+    point
+        .iter_mut()
+        .zip(coordinates)
+        .for_each(|(to, from)| *to = *from);
+    point
 }
 
 fn columns_of(columns: &[String], subsystem: &str, outputs: &[String]) -> Vec<usize> {

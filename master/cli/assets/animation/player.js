@@ -52,6 +52,7 @@
     }
   };
 
+  const placed = (turned, origin) => turned.map((x, axis) => x + origin[axis]);
   const move = (circle, at) => {
     circle.setAttribute("cx", at[0].toFixed(1));
     circle.setAttribute("cy", at[1].toFixed(1));
@@ -63,18 +64,19 @@
       const rotate = rotation(marker, frame);
       const lines = group.querySelectorAll("polyline");
       marker.shape.forEach((line, index) => {
-        const points = line.map((own) => rotate(own).map((x, axis) => x + positions[number][axis]));
+        const points = line.map((own) => placed(rotate(own), positions[number]));
         lines[index].setAttribute("points", path(points));
       });
       move(group.querySelector("circle"), place(positions[number]));
     });
     film.bodies.forEach((body, number) =>
       bodies.children[number].setAttribute("points", path(body.map((marker) => positions[marker]))));
-    film.joints.forEach((ends, number) => {
+    film.joints.forEach(({ ends, points }, number) => {
       const group = joints.children[number];
-      const points = ends.map((end) => positions[end]);
-      group.querySelector("polyline").setAttribute("points", path(points));
-      group.querySelectorAll("circle").forEach((circle, end) => move(circle, place(points[end])));
+      const [a, b] = ends.map((end) => positions[end]);
+      const held = ends.map((end, side) => placed(rotation(film.markers[end], frame)(points[side]), positions[end]));
+      group.querySelector("polyline").setAttribute("points", path([a, ...held, b]));
+      group.querySelectorAll("circle").forEach((circle, side) => move(circle, place(held[side])));
     });
     clock.textContent = `t = ${shownTime(film.t[frame])} s`;
   };

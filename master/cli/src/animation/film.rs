@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use linchpin_master::cosimulation::RecordedJoint;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -28,7 +29,7 @@ pub(super) struct Film<'a> {
     markers: Vec<MarkerFilm<'a>>,
     /// Markers of each subsystem that a line joins.
     bodies: Vec<Vec<usize>>,
-    joints: Vec<[usize; 2]>,
+    joints: Vec<JointFilm>,
     /// Times of the frames in s.
     t: Vec<f64>,
 }
@@ -46,6 +47,23 @@ struct MarkerFilm<'a> {
     shape: Vec<Vec<[f64; 3]>>,
     /// The numbers of all frames, frame by frame.
     motion: Vec<i64>,
+}
+
+#[derive(Debug, Serialize)]
+struct JointFilm {
+    /// Places of its markers.
+    ends: [usize; 2],
+    /// Where it holds, in their axes (m).
+    points: [[f64; 3]; 2],
+}
+
+impl JointFilm {
+    fn of(joint: &RecordedJoint) -> Self {
+        Self {
+            ends: joint.ends,
+            points: joint.points,
+        }
+    }
 }
 
 impl<'a> Film<'a> {
@@ -73,7 +91,7 @@ impl<'a> Film<'a> {
             scenery: view.turn.is_some().then_some(scenery),
             markers: motion.markers.iter().map(marker_film).collect(),
             bodies: bodies(motion),
-            joints: motion.joints.iter().map(|joint| joint.ends).collect(),
+            joints: motion.joints.iter().map(JointFilm::of).collect(),
             t: motion.frames().map(|frame| frame.t).collect(),
         }
     }

@@ -124,6 +124,7 @@ impl Motion {
             Some(RecordedJoint {
                 name: joint.name.clone(),
                 ends: [places[a]?, places[b]?],
+                points: joint.points,
             })
         };
         let cost = numbers + NUMBERS_PER_TRACE_POINT * markers.len();

@@ -126,11 +126,13 @@ impl Picture<'_> {
         writeln!(f, r#"<g id="joints">"#)?;
         for joint in &self.motion.joints {
             let marker = |number: usize| &self.motion.markers[number];
-            let ends = joint.ends.map(|end| self.point(marker(end), frame));
+            let [a, b] = joint.ends.map(|end| self.point(marker(end), frame));
+            let held = self.stage.held(joint, self.motion, frame);
             let name = Escaped(&joint.name);
             writeln!(f, r#"<g class="joint"><title>{name}</title>"#)?;
-            writeln!(f, "{}", self.polyline("link", &ends))?;
-            let [a, b] = ends.map(|end| self.dot(&end, JOINT_RADIUS));
+            let link = [a, held[0], held[1], b];
+            writeln!(f, "{}", self.polyline("link", &link))?;
+            let [a, b] = held.map(|point| self.dot(&point, JOINT_RADIUS));
             writeln!(f, "{a}{b}</g>")?;
         }
         writeln!(f, "</g>")

@@ -1,5 +1,6 @@
 //! Where the mechanism moves.
 
+use linchpin_master::cosimulation::RecordedJoint;
 use linchpin_proto::joint_load::Pose;
 use nalgebra::Vector3;
 
@@ -89,19 +90,13 @@ impl Stage {
 
     /// The pose of a marker in a frame.
     pub fn pose(&self, marker: &Marker, frame: &Frame) -> Pose {
-        let numbers = &frame.numbers[marker.start..][..marker.form.numbers()];
-        match *numbers {
-            [x] => Pose::planar(x, self.lane(marker), 0.0),
-            [x, y] => Pose::planar(x, y, 0.0),
-            [x, y, angle] if marker.form == Form::Plane => Pose::planar(x, y, angle),
-            [x, y, z, w, i, j, k] if w != 0.0 || i != 0.0 || j != 0.0 || k != 0.0 => {
-                Pose::spatial(Vector3::new(x, y, z), [w, i, j, k])
-            }
-            _ => Pose {
-                position: Vector3::new(numbers[0], numbers[1], numbers[2]),
-                ..Pose::default()
-            },
-        }
+        pose(marker, frame, self.lane(marker))
+    }
+
+    /// The two points in which a joint holds its markers in a frame (m), which coincide where the joint makes them.
+    pub fn held(&self, joint: &RecordedJoint, motion: &Motion, frame: &Frame) -> [Vector3<f64>; 2] {
+        let lanes = joint.ends.map(|end| self.lane(&motion.markers[end]));
+        held(joint, motion, frame, lanes)
     }
 
     /// The lane of a marker in y (m); 0 for those that have none.
@@ -141,16 +136,51 @@ impl Stage {
     }
 }
 
-/// Lowest and highest coordinates of all markers in all frames; 0 where nothing has a coordinate.
+fn pose(marker: &Marker, frame: &Frame, lane: f64) -> Pose {
+    let numbers = &frame.numbers[marker.start..][..marker.form.numbers()];
+    match *numbers {
+        [x] => Pose::planar(x, lane, 0.0),
+        [x, y] => Pose::planar(x, y, 0.0),
+        [x, y, angle] if marker.form == Form::Plane => Pose::planar(x, y, angle),
+        [x, y, z, w, i, j, k] if [w, i, j, k] != [0.0; 4] => {
+            Pose::spatial(Vector3::new(x, y, z), [w, i, j, k])
+        }
+        _ => Pose {
+            position: Vector3::new(numbers[0], numbers[1], numbers[2]),
+            ..Pose::default()
+        },
+    }
+}
+
+fn held(
+    joint: &RecordedJoint,
+    motion: &Motion,
+    frame: &Frame,
+    lanes: [f64; 2],
+) -> [Vector3<f64>; 2] {
+    [0, 1].map(|end| {
+        let pose = pose(&motion.markers[joint.ends[end]], frame, lanes[end]);
+        pose.position + pose.rotation * Vector3::from(joint.points[end])
+    })
+}
+
+/// Lowest and highest coordinates of all markers and joints in all frames; 0 where nothing has a coordinate.
 fn extent(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
     let mut low = Vector3::repeat(f64::INFINITY);
     let mut high = Vector3::repeat(f64::NEG_INFINITY);
+    let mut take = |marker: &Marker, point: &Vector3<f64>| {
+        for axis in 0..marker.form.coordinates() {
+            low[axis] = low[axis].min(point[axis]);
+            high[axis] = high[axis].max(point[axis]);
+        }
+    };
     for frame in motion.frames() {
         for marker in &motion.markers {
-            for axis in 0..marker.form.coordinates() {
-                let coordinate = frame.numbers[marker.start + axis];
-                low[axis] = low[axis].min(coordinate);
-                high[axis] = high[axis].max(coordinate);
+            take(marker, &pose(marker, frame, 0.0).position);
+        }
+        for joint in &motion.joints {
+            for (end, point) in joint.ends.iter().zip(held(joint, motion, frame, [0.0; 2])) {
+                take(&motion.markers[*end], &point);
             }
         }
     }

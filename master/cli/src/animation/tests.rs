@@ -124,6 +124,7 @@ fn markers_that_lack_a_position_are_left_out_with_their_joints() {
     let joint = |name: &str, ends| RecordedJoint {
         name: name.to_owned(),
         ends,
+        points: [[0.0; 3]; 2],
     };
     mechanism.joints = vec![joint("open", [0, 3]), joint("hinge", [2, 3])];
     let motion = Motion::new(&mechanism).unwrap();
@@ -191,6 +192,7 @@ fn names_stay_text() {
     mechanism.joints = vec![RecordedJoint {
         name: evil.to_owned(),
         ends: [0, 0],
+        points: [[0.0; 3]; 2],
     }];
     let page = page::text(evil, &moved(&mechanism, 10, swing)).unwrap();
     assert_eq!(page.matches("<script").count(), 2);

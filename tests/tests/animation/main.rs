@@ -2,18 +2,19 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::collections::HashMap;
-use std::f64::consts::TAU;
+mod page;
+
 use std::sync::Arc;
 
 use linchpin_proto::v1;
 use linchpin_tests::process::{Peer, Workshop};
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Host, Inputs, Interval, Model, Setup, Snapshot, StepFailure, Subsystem};
-use serde_json::Value;
 
-const DOUBLE_PENDULUM: &str = include_str!("../../scenes/double-pendulum.toml");
-const OSCILLATOR: &str = include_str!("../../scenes/oscillator.toml");
+use page::{assert_fine, assert_same_times, assert_shows, columns, film, numbers, span};
+
+const DOUBLE_PENDULUM: &str = include_str!("../../../scenes/double-pendulum.toml");
+const OSCILLATOR: &str = include_str!("../../../scenes/oscillator.toml");
 
 /// Two bodies in space with a tilted start; the second one's end is held by no joint.
 const PAIR: &str = r#"
@@ -58,118 +59,6 @@ fn run(scene: &str, more: &[&str]) -> Workshop {
     workshop
 }
 
-/// The columns of a table by name.
-fn columns(workshop: &Workshop, table: &str) -> HashMap<String, Vec<f64>> {
-    let text = workshop.read(table);
-    let mut reader = csv::Reader::from_reader(text.as_bytes());
-    let names: Vec<String> = reader
-        .headers()
-        .unwrap()
-        .iter()
-        .map(str::to_owned)
-        .collect();
-    let mut columns: HashMap<String, Vec<f64>> = HashMap::new();
-    for record in reader.records() {
-        for (name, value) in names.iter().zip(&record.unwrap()) {
-            columns
-                .entry(name.clone())
-                .or_default()
-                .push(value.parse().unwrap());
-        }
-    }
-    columns
-}
-
-/// What the script of a page reads.
-fn film(page: &str) -> Value {
-    let (_, rest) = page
-        .split_once(r#"<script type="application/json" id="film">"#)
-        .unwrap();
-    serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|number| number.as_f64().unwrap())
-        .collect()
-}
-
-/// Equal times; the JSON reader may miss the last bit.
-fn assert_same_times(shown: &[f64], expected: &[f64]) {
-    assert_eq!(shown.len(), expected.len());
-    for (shown, expected) in shown.iter().zip(expected) {
-        assert!(
-            (shown - expected).abs() <= f64::EPSILON * expected,
-            "{shown} {expected}"
-        );
-    }
-}
-
-/// A marker of a page: `SUBSYSTEM.MARKER` and its columns, each with the unit in which the page counts it.
-fn decoded(film: &Value, marker: &Value) -> (String, Vec<(f64, Vec<f64>)>) {
-    let text = |key: &str| marker[key].as_str().unwrap();
-    let whole = |key: &str| marker[key].as_u64().unwrap() as usize;
-    let unit = |key: &str| film[key].as_f64().unwrap();
-    let (origin, motion) = (numbers(&film["origin"]), numbers(&marker["motion"]));
-    let column = |place: usize| {
-        let (unit, origin) = match place < whole("coordinates") {
-            true => (unit("unit"), origin[place]),
-            false => (unit("turn_unit"), 0.0),
-        };
-        let own = motion.iter().skip(place).step_by(whole("numbers"));
-        (unit, own.map(|number| origin + unit * number).collect())
-    };
-    let name = format!("{}.{}", text("subsystem"), text("name"));
-    (name, (0..whole("numbers")).map(column).collect())
-}
-
-/// Every number of every frame is that of one of `stride` rows of the table, to half of the unit in which the page
-/// counts. `expected` has the markers in their order with the ends of the names of their columns.
-fn assert_shows(
-    film: &Value,
-    table: &HashMap<String, Vec<f64>>,
-    stride: usize,
-    expected: &[(&str, &[&str])],
-) {
-    let of_rows =
-        |column: &str| -> Vec<f64> { table[column].iter().copied().step_by(stride).collect() };
-    assert_same_times(&numbers(&film["t"]), &of_rows("t"));
-    let markers = film["markers"].as_array().unwrap();
-    assert_eq!(markers.len(), expected.len());
-    for (marker, (name, outputs)) in markers.iter().zip(expected) {
-        let (shown_name, columns) = decoded(film, marker);
-        assert_eq!((shown_name.as_str(), columns.len()), (*name, outputs.len()));
-        let (subsystem, _) = name.split_once('.').unwrap();
-        for ((unit, shown), output) in columns.iter().zip(*outputs) {
-            let column = of_rows(&format!("{subsystem}.{output}"));
-            assert_eq!(shown.len(), column.len());
-            for (shown, value) in shown.iter().zip(column) {
-                let full_turns = match output.ends_with("angle") {
-                    true => TAU * ((shown - value) / TAU).round(),
-                    false => 0.0,
-                };
-                let difference = (shown - value - full_turns).abs();
-                assert!(difference <= 0.5001 * unit, "{name}.{output}: {difference}");
-            }
-        }
-    }
-}
-
-/// The page counts in units finer than a ten-thousandth of `largest`, the largest motion in m, and of a radian.
-fn assert_fine(film: &Value, largest: f64) {
-    let unit = |key: &str| film[key].as_f64().unwrap();
-    assert!(unit("unit") <= 1e-4 * largest && unit("turn_unit") <= 1e-4);
-}
-
-/// Largest less smallest value.
-fn span(values: &[f64]) -> f64 {
-    let largest = values.iter().copied().fold(f64::MIN, f64::max);
-    largest - values.iter().copied().fold(f64::MAX, f64::min)
-}
-
 #[test]
 fn a_planar_scene() {
     let workshop = run(DOUBLE_PENDULUM, &["--animate"]);
@@ -184,9 +73,54 @@ fn a_planar_scene() {
     assert_shows(&film, &table, 2, &expected);
     // The end of link 2 sweeps the whole width.
     assert_fine(&film, span(&table["link2.end_x"]));
-    assert_eq!(film["joints"], serde_json::json!([[0, 1]]));
+    assert_eq!(film["joints"][0]["ends"], serde_json::json!([0, 1]));
     assert_eq!(film["bodies"], serde_json::json!([[1, 2]]));
     assert!(page.contains("501 of the 1001 rows"), "{}", &page[..900]);
+}
+
+/// The dots of a closed joint coincide where it holds, away from both markers.
+#[test]
+fn a_joint_is_drawn_where_it_holds() {
+    // Tip of link 1 plus (-0.2, 0.1) in its axes, at 45 degrees, less (0.3, 0.1) in those of link 2, at -45 degrees.
+    let scene = DOUBLE_PENDULUM
+        .replace(
+            "x0 = 0.7071067811865476, y0 = 0.7071067811865476",
+            "x0 = 0.21213203435596426, y0 = 0.7778174593052023",
+        )
+        .replace(
+            "b = \"link2.start\"",
+            "b = \"link2.start\"\npoint_a = [-0.2, 0.1]\npoint_b = [0.3, 0.1]",
+        );
+    let page = run(&scene, &["--animate"]).read("out/animation.html");
+    let centres = |group: &str| -> Vec<(f64, f64)> {
+        let (_, rest) = page.split_once(&format!("<g id=\"{group}\">")).unwrap();
+        let circles = rest
+            .split_once("\n</g>\n")
+            .unwrap()
+            .0
+            .split("<circle cx=\"")
+            .skip(1);
+        let centre = |circle: &str| {
+            let mut numbers = circle.split('"');
+            (
+                numbers.next().unwrap().parse().unwrap(),
+                numbers.nth(1).unwrap().parse().unwrap(),
+            )
+        };
+        circles.map(centre).collect()
+    };
+    let apart = |(x, y): (f64, f64), other: (f64, f64)| (x - other.0).hypot(y - other.1);
+    let [tip, start, _] = centres("markers")[..] else {
+        panic!("three markers")
+    };
+    let [a, b] = centres("joints")[..] else {
+        panic!("one joint")
+    };
+    assert!(apart(a, b) < 0.15, "{a:?} {b:?}");
+    // Lengths of the two points, by the same scale.
+    let scale = film(&page)["view"]["scale"].as_f64().unwrap();
+    assert!((apart(tip, a) - scale * 0.2_f64.hypot(0.1)).abs() < 0.15);
+    assert!((apart(start, b) - scale * 0.3_f64.hypot(0.1)).abs() < 0.15);
 }
 
 #[test]
@@ -206,7 +140,7 @@ fn a_scene_in_space() {
         ("b.end", &end),
     ];
     assert_shows(&film, &columns(&workshop, "out/results.csv"), 1, &expected);
-    assert_eq!(film["joints"], serde_json::json!([[1, 2]]));
+    assert_eq!(film["joints"][0]["ends"], serde_json::json!([1, 2]));
     assert!(film["view"]["turn"].is_object() && film["scenery"].is_object());
 }
 
