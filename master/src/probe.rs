@@ -220,6 +220,7 @@ impl<'a, 'b> Probe<'a, 'b> {
             watch_nothing: true,
             accept_open_joints: true,
             established: Some(multipliers),
+            ..Options::default()
         };
         let mut simulation = CoSimulation::start(&scene, self.connect, &options)?;
         check_exact(&simulation)?;

@@ -6,10 +6,12 @@
 //! * [`error_norm`]: errors of a run;
 //! * [`study`]: many runs of one scene with other settings;
 //! * [`interrupt`]: Ctrl-C as a request to stop a run;
-//! * [`plot`]: the pictures of runs and studies.
+//! * [`plot`]: the pictures of runs and studies;
+//! * [`animation`]: the moving mechanism as a page of its own.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod animation;
 pub mod closed_form;
 pub mod commands;
 pub mod connect;

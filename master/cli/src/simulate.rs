@@ -1,6 +1,6 @@
 //! Runs a scene from start to end and hands every recorded row on.
 
-use linchpin_master::cosimulation::Options;
+use linchpin_master::cosimulation::{Mechanism, Options};
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use linchpin_master::{CoSimulation, RunError};
@@ -11,6 +11,11 @@ use crate::connect::Connector;
 pub trait Recorder {
     /// Why a row could not be taken.
     type Error;
+
+    /// Comes first if [`Options::record_markers`] is set: which columns hold the positions of which markers.
+    fn mechanism(&mut self, _mechanism: &Mechanism) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// The run starts; `row` has the column names and the values at the first macro point.
     fn begin(&mut self, row: &Row) -> Result<(), Self::Error>;
@@ -55,6 +60,10 @@ pub fn simulate<R: Recorder>(
     let mut simulation = CoSimulation::start(scene, &mut connect, options)
         .map_err(|error| stopped(scene.t_start, error))?;
     let all = simulation.grid().len();
+    if let Some(mechanism) = simulation.mechanism() {
+        let taken = recorder.mechanism(mechanism);
+        taken.map_err(SimulateError::Record)?;
+    }
     recorder
         .begin(simulation.row())
         .map_err(SimulateError::Record)?;

@@ -3,6 +3,7 @@
 mod closed;
 mod geometry;
 mod initial;
+mod mechanism;
 mod refusal;
 mod start;
 mod subsystem;
@@ -12,6 +13,7 @@ use std::time::Instant;
 
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
+pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use subsystem::Subsystem;
 pub use tie::multiplier_columns;
 
@@ -33,6 +35,7 @@ pub struct CoSimulation {
     grid: MacroGrid,
     next: usize,
     row: Row,
+    mechanism: Option<Mechanism>,
     guard: Guard,
     statistics: Statistics,
 }
@@ -108,6 +111,11 @@ impl CoSimulation {
     /// Everything that is recorded of the present macro point.
     pub fn row(&self) -> &Row {
         &self.row
+    }
+
+    /// The markers of all subsystems, if their positions are recorded ([`Options::record_markers`]).
+    pub fn mechanism(&self) -> Option<&Mechanism> {
+        self.mechanism.as_ref()
     }
 
     /// The last request to a subsystem and its answer; `None` if there is no such subsystem.

@@ -3,8 +3,11 @@
 use linchpin_proto::v1::{self, value::Kind};
 
 use super::initial::InitialState;
+use super::mechanism::Mechanism;
 use super::refusal::{Refusals, refuse_setup};
-use super::tie::{connect_signals, mark, model_of, recorded_outputs, refuse_marker};
+use super::tie::{
+    connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
+};
 use super::{CoSimulation, Parts, Scheme, Subsystem};
 use crate::connection::{Connection, StartError};
 use crate::coupling::columns::Increments;
@@ -33,6 +36,8 @@ pub struct Options {
     /// Multipliers at past macro points in place of a start, newest first; the polynomials then have their full degree
     /// from the first step on.
     pub established: Option<Vec<Vec<f64>>>,
+    /// Record the positions of all markers, also of those that no joint holds: a picture of the mechanism needs them.
+    pub record_markers: bool,
 }
 
 impl CoSimulation {
@@ -53,7 +58,10 @@ impl CoSimulation {
             connections: &connections,
         };
         let layout = layout_of(scene, &coupled)?;
-        let recorded = recorded_outputs(scene, &models, &layout.outputs)?;
+        let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
+        if options.record_markers {
+            record_markers(&models, &layout.outputs, &mut recorded);
+        }
         let mut refusals = Refusals::default();
         for (number, subsystem) in subsystems.iter_mut().enumerate() {
             let request =
@@ -79,6 +87,9 @@ impl CoSimulation {
         let scheme = begin(scene, options, initial, &mut parts, &grid)?;
         let mut row = Row::new(&parts);
         row.read(scene.t_start, &parts, scheme.multipliers());
+        let mechanism = options
+            .record_markers
+            .then(|| Mechanism::new(scene, &models, &joints, row.columns()));
         let guard = match &scheme {
             _ if options.watch_nothing => Guard::off(),
             Scheme::Penalty(_) => Guard::of_springs(),
@@ -91,6 +102,7 @@ impl CoSimulation {
             grid,
             next: 0,
             row,
+            mechanism,
             guard,
             statistics,
         })

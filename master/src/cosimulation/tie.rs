@@ -313,6 +313,21 @@ pub(super) fn recorded_outputs(
     Ok(recorded)
 }
 
+/// Adds the positions of all markers to the outputs to record, as far as they are not there and not in `coupling`.
+pub(super) fn record_markers(
+    models: &[v1::Model],
+    coupling: &[Vec<String>],
+    recorded: &mut [Vec<String>],
+) {
+    for (number, model) in models.iter().enumerate() {
+        for output in model.markers.iter().flat_map(|marker| &marker.position) {
+            if !coupling[number].contains(output) && !recorded[number].contains(output) {
+                recorded[number].push(output.clone());
+            }
+        }
+    }
+}
+
 fn did_you_mean(name: &str, known: &[&str]) -> Option<String> {
     nearest(name, known.iter().copied()).map(|near| format!("did you mean \"{near}\"?"))
 }

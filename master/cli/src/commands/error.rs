@@ -49,6 +49,12 @@ pub enum CommandError {
         /// The system's reason.
         source: std::io::Error,
     },
+    /// An animation was asked for, and no subsystem has a marker that could be shown.
+    #[error(
+        "--animate has nothing to show: no subsystem of the scene describes a marker with a position; \
+         run without it, or let a worker describe markers"
+    )]
+    NothingToAnimate,
     /// A table cannot be written or read back.
     #[error("{}: {source}", path.display())]
     Table {
@@ -113,7 +119,7 @@ impl CommandError {
             Self::Stopped { source, .. } if matches!(**source, RunError::Interrupted { .. }) => {
                 interrupt::EXIT_CODE
             }
-            Self::NothingToStudy { .. } => 2,
+            Self::NothingToStudy { .. } | Self::NothingToAnimate => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,
         }

@@ -8,6 +8,7 @@ use linchpin_master::scene::Scene;
 
 use super::CommandError;
 use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print};
+use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
 use crate::results::{RunRecorder, RunReport, draw};
@@ -19,6 +20,7 @@ use crate::simulate::simulate;
   linchpin run scenes/oscillator.toml
   linchpin run scenes/oscillator.toml --out /tmp/fine --set coupling.macro_step=1e-4
   linchpin run scenes/oscillator.toml --in-process --quiet
+  linchpin run scenes/double-pendulum.toml --animate
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
 DIR/results.svg and DIR/results.png. A scene with cases runs them one after the other, each in a folder of its own, and
@@ -41,6 +43,10 @@ pub struct Arguments {
     /// No plots
     #[arg(long)]
     no_plots: bool,
+
+    /// Write animation.html, which shows the moving markers; their positions become columns of results.csv
+    #[arg(long)]
+    animate: bool,
 }
 
 impl Arguments {
@@ -102,13 +108,21 @@ impl Job<'_> {
         let connector = Connector::new(self.arguments.place()).stopped_by(self.interrupt.clone());
         let report_path = folder.join("run.json");
         let stale = ["svg", "png"].map(|ending| self.pictures.with_extension(ending));
-        let stale = [&stale[..], std::slice::from_ref(&report_path)].concat();
+        let page = folder.join("animation.html");
+        let stale = [&stale[..], &[report_path.clone(), page.clone()]].concat();
         let mut recorder = RunRecorder::new(scene, folder, stale, output.shows_progress());
-        let report = match simulate(scene, &connector, &Options::default(), &mut recorder) {
+        let options = Options {
+            record_markers: self.arguments.animate,
+            ..Options::default()
+        };
+        let report = match simulate(scene, &connector, &options, &mut recorder) {
             Ok(statistics) => recorder.finish(statistics)?,
             Err(error) => return Err(CommandError::from_simulation(error, recorder.give_up())),
         };
         report.write_json(scene, &self.arguments.scene, case, &report_path)?;
+        if let Some(motion) = &report.motion {
+            animation::write(scene, case, motion, &page)?;
+        }
         if !output.quiet {
             print(format_args!("{}\n", report.summary(scene, case)))?;
         }

@@ -30,6 +30,8 @@ pub use error::PlotError;
 pub use grid::{MapAxis, MapCell, MapPanel, Verdict};
 pub use map::{StabilityMap, map};
 pub use scale::Scale;
+pub(crate) use style::{PALETTE_SIZE, palette_colour};
+pub(crate) use tick::Ticks;
 pub use time_panels::{TimePanel, TimePanels, TimeSeries, time_panels};
 
 #[cfg(test)]

@@ -19,8 +19,11 @@ pub(super) const FRAME: RGBColor = RGBColor(60, 60, 60);
 pub(super) const REFERENCE: RGBColor = RGBColor(176, 176, 176);
 pub(super) const REFERENCE_TEXT: RGBColor = RGBColor(120, 120, 120);
 
+/// Number of colours.
+pub(crate) const PALETTE_SIZE: usize = 7;
+
 /// Okabe and Ito, "Color Universal Design" (2008), without the yellow that vanishes on white.
-const PALETTE: [RGBColor; 7] = [
+const PALETTE: [RGBColor; PALETTE_SIZE] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 0, 0),
@@ -108,11 +111,17 @@ const MARKERS: [Marker; 7] = [
     Marker::TriangleDown,
 ];
 
+/// Red, green and blue of the n-th colour; they come again after [`PALETTE_SIZE`].
+pub(crate) fn palette_colour(index: usize) -> [u8; 3] {
+    let RGBColor(red, green, blue) = PALETTE[index % PALETTE_SIZE];
+    [red, green, blue]
+}
+
 /// Colour and marker of the n-th curve: 49 pairs, neighbours differ in both.
 pub(super) fn curve_style(index: usize) -> (RGBColor, Marker) {
-    let round = index / PALETTE.len();
+    let round = index / PALETTE_SIZE;
     (
-        PALETTE[index % PALETTE.len()],
+        PALETTE[index % PALETTE_SIZE],
         MARKERS[(index + round) % MARKERS.len()],
     )
 }

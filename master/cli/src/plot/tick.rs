@@ -2,7 +2,7 @@ use super::scale::Scale;
 
 /// A labelled position on an axis.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Tick {
+pub(crate) struct Tick {
     /// Place in the coordinate in which the scale is uniform.
     pub coordinate: f64,
     pub label: String,
@@ -10,14 +10,14 @@ pub(super) struct Tick {
 
 /// Labelled positions and the unlabelled ones between them.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Ticks {
+pub(crate) struct Ticks {
     pub major: Vec<Tick>,
     pub minor: Vec<f64>,
 }
 
 impl Ticks {
     /// About `wanted` round positions in a range of the uniform coordinate, never more than twice as many.
-    pub(super) fn in_range(scale: Scale, (low, high): (f64, f64), wanted: i32) -> Self {
+    pub(crate) fn in_range(scale: Scale, (low, high): (f64, f64), wanted: i32) -> Self {
         match scale {
             Scale::Linear => Self {
                 major: linear((low, high), wanted, Scale::Linear),

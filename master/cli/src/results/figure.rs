@@ -27,15 +27,12 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
             // Several cases: one curve each, so that the picture stays readable.
             let most = if is_single { usize::MAX } else { 1 };
             series.extend(chosen.take(most).map(|trace| {
-                TimeSeries {
-                    name: case.map_or_else(|| trace.name.clone(), |case| case.name.clone()),
-                    t: trace
-                        .t
-                        .iter()
-                        .map(|t| (t - delay).max(scene.t_start))
-                        .collect(),
-                    y: trace.y.clone(),
-                }
+                let points = trace.points.items().iter();
+                let (t, y) = points
+                    .map(|(t, y)| ((t - delay).max(scene.t_start), *y))
+                    .unzip();
+                let name = case.map_or_else(|| trace.name.clone(), |case| case.name.clone());
+                TimeSeries { name, t, y }
             }));
         }
         let y_scale = Scale::Linear;

@@ -3,9 +3,11 @@
 mod figure;
 mod recorder;
 mod report;
+mod thinned;
 mod trace;
 
 pub use figure::draw;
 pub use recorder::RunRecorder;
 pub use report::RunReport;
+pub use thinned::Thinned;
 pub use trace::Trace;

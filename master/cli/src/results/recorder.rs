@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
+use linchpin_master::cosimulation::Mechanism;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
 use super::{RunReport, Trace};
+use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
 use crate::commands::common::remove_stale;
@@ -26,6 +28,7 @@ pub struct RunRecorder {
     closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
     traces: Vec<(usize, Trace)>,
+    motion: Option<Motion>,
     bar: ProgressBar,
     t_start: f64,
     started: Instant,
@@ -48,6 +51,7 @@ impl RunRecorder {
             closed_form: ClosedForm::of(scene),
             errors: None,
             traces: Vec::new(),
+            motion: None,
             bar: if shows_progress {
                 bar()
             } else {
@@ -71,6 +75,7 @@ impl RunRecorder {
             statistics,
             errors: self.errors,
             traces: self.traces.into_iter().map(|(_, trace)| trace).collect(),
+            motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
         })
     }
@@ -118,6 +123,11 @@ fn bar() -> ProgressBar {
 impl Recorder for RunRecorder {
     type Error = CommandError;
 
+    fn mechanism(&mut self, mechanism: &Mechanism) -> Result<(), CommandError> {
+        self.motion = Some(Motion::new(mechanism).ok_or(CommandError::NothingToAnimate)?);
+        Ok(())
+    }
+
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
         let columns = row.columns().iter().enumerate();
         let trace =
@@ -133,10 +143,15 @@ impl Recorder for RunRecorder {
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
         for (place, trace) in &mut self.traces {
-            trace.push(row.values()[0], row.values()[*place]);
+            trace
+                .points
+                .push(|| (row.values()[0], row.values()[*place]));
         }
         if let Some(errors) = &mut self.errors {
             errors.add(row);
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.record(row.values());
         }
         // Shortest text that reads back to the same bits.
         self.write(row.values())

@@ -9,6 +9,7 @@ use linchpin_master::scene::{Method, Scene};
 use serde::Serialize;
 
 use super::Trace;
+use crate::animation::Motion;
 use crate::commands::CommandError;
 use crate::commands::common::SceneArguments;
 use crate::error_norm::ErrorMeter;
@@ -21,6 +22,8 @@ pub struct RunReport {
     pub errors: Option<ErrorMeter>,
     /// Series for the picture.
     pub traces: Vec<Trace>,
+    /// Positions of the markers, if they were asked for.
+    pub motion: Option<Motion>,
     /// Time of the whole run in s.
     pub wall_time: f64,
 }

@@ -43,7 +43,7 @@ impl BlowUp {
         let options = Options {
             watch_nothing: true,
             accept_open_joints: true,
-            established: None,
+            ..Options::default()
         };
         let mut simulation = CoSimulation::start(&scene, connect, &options)?;
         let steps = simulation.grid().len();
