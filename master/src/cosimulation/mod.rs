@@ -4,6 +4,7 @@ mod closed;
 mod geometry;
 mod initial;
 mod mechanism;
+mod panels;
 mod refusal;
 mod start;
 mod subsystem;

@@ -4,6 +4,7 @@ use linchpin_proto::v1::{self, value::Kind};
 
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
+use super::panels;
 use super::refusal::{Refusals, refuse_setup};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
@@ -87,6 +88,7 @@ impl CoSimulation {
         let scheme = begin(scene, options, initial, &mut parts, &grid)?;
         let mut row = Row::new(&parts);
         row.read(scene.t_start, &parts, scheme.multipliers());
+        panels::check(scene, &row)?;
         let mechanism = options
             .record_markers
             .then(|| Mechanism::new(scene, &models, &joints, row.columns()));

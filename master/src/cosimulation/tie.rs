@@ -328,6 +328,6 @@ pub(super) fn record_markers(
     }
 }
 
-fn did_you_mean(name: &str, known: &[&str]) -> Option<String> {
+pub(super) fn did_you_mean(name: &str, known: &[&str]) -> Option<String> {
     nearest(name, known.iter().copied()).map(|near| format!("did you mean \"{near}\"?"))
 }

@@ -14,6 +14,7 @@ mod index;
 mod joint;
 mod names;
 pub(crate) mod nearest;
+mod output;
 mod overrides;
 mod place;
 mod reader;
@@ -37,8 +38,8 @@ pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index, Joint,
-    JointKind, Loads, Method, Output, Reference, RunSettings, Served, Side, StabilitySettings,
-    Subsystem,
+    JointKind, Loads, Method, Output, Panel, Reference, RunSettings, Served, Side,
+    StabilitySettings, Subsystem,
 };
 pub use stability_rules::{Warning, warnings};
 pub use subsystem::is_worker_address;

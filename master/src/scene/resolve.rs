@@ -7,10 +7,11 @@ use super::connection;
 use super::coupling;
 use super::error::{SceneError, SceneErrors};
 use super::error_kind::SceneErrorKind;
-use super::joint::{self, find_subsystem};
+use super::joint;
 use super::names::Registry;
+use super::output;
 use super::reader::{FINITE, Field, Problems, Range, Section};
-use super::resolved::{Output, RunSettings};
+use super::resolved::RunSettings;
 use super::subsystem;
 use super::sweeps;
 use super::written::{Value, Written};
@@ -29,7 +30,6 @@ const SECTIONS: [&str; 10] = [
 ];
 const DEFAULT_DEADLINE: f64 = 30.0;
 const DEFAULT_START_TIMEOUT: f64 = 10.0;
-const VARIABLES: &str = "a list of outputs such as [\"mass1.v\"]";
 /// Longer than any sensible wait, and short enough for every clock.
 const TIME_LIMIT: Range = Range {
     words: "greater than 0 s and at most 1e6 s",
@@ -82,7 +82,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     let connections = collect(&connection_tables, |table| {
         connection::read(table, &subsystem_names, problems)
     });
-    let output = read_output(&root, &subsystem_names, problems);
+    let output = output::read(&root, &subsystem_names, problems);
     let run = read_run(&root, problems);
     let case_tables = sections(&root, "case", problems);
     Registry::collect("case", &case_tables, None, problems);
@@ -110,7 +110,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
 }
 
 /// All or nothing, but every element is read.
-fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
+pub(super) fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
     let read: Vec<Option<T>> = items.iter().map(read).collect();
     read.into_iter().collect()
 }
@@ -181,81 +181,6 @@ fn sections<'w>(
         sections.extend(item.section(problems));
     }
     sections
-}
-
-fn read_output(
-    root: &Section<'_>,
-    subsystems: &Registry<'_>,
-    problems: &mut Problems<'_>,
-) -> Option<Output> {
-    let Some(field) = root.get("output") else {
-        return Some(Output {
-            every: 1,
-            variables: None,
-        });
-    };
-    let section = field.section(problems)?;
-    section.allow_only(&["every", "variables"], problems);
-    let every = section
-        .get("every")
-        .map_or(Some(1), |field| field.whole(1, usize::MAX, problems));
-    let variables = match section.get("variables") {
-        Some(field) => field
-            .items(VARIABLES, problems)
-            .and_then(|items| {
-                check_repeated(&items, problems);
-                collect(&items, |item| read_variable(item, subsystems, problems))
-            })
-            .map(Some),
-        None => Some(None),
-    };
-    Some(Output {
-        every: every?,
-        variables: variables?,
-    })
-}
-
-fn read_variable(
-    field: &Field<'_>,
-    subsystems: &Registry<'_>,
-    problems: &mut Problems<'_>,
-) -> Option<String> {
-    let text = field.text(problems)?;
-    match text.split_once('.') {
-        Some((name, output)) if !output.is_empty() => {
-            find_subsystem(name, field, subsystems, problems)?;
-            Some(text.to_owned())
-        }
-        _ => {
-            let kind = SceneErrorKind::InvalidReference {
-                key: field.key.clone(),
-                found: text.to_owned(),
-                allowed: "SUBSYSTEM.OUTPUT",
-            };
-            field.report(kind, problems);
-            None
-        }
-    }
-}
-
-fn check_repeated(items: &[Field<'_>], problems: &mut Problems<'_>) {
-    for (i, item) in items.iter().enumerate() {
-        let earlier = items[..i].iter().find(|earlier| {
-            earlier.peek_text().is_some() && earlier.peek_text() == item.peek_text()
-        });
-        if let (Some(earlier), Some(name)) = (earlier, item.peek_text()) {
-            let kind = SceneErrorKind::DuplicateName {
-                key: item.key.clone(),
-                name: name.to_owned(),
-                taken_by: "recorded output",
-                line: problems
-                    .written
-                    .place(&earlier.node.spot)
-                    .map(|place| place.line),
-            };
-            item.report(kind, problems);
-        }
-    }
 }
 
 fn read_run(root: &Section<'_>, problems: &mut Problems<'_>) -> Option<RunSettings> {

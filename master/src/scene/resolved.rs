@@ -228,6 +228,17 @@ pub struct Output {
     pub every: usize,
     /// Outputs as `subsystem.output`, beyond those that the coupling needs.
     pub variables: Option<Vec<String>>,
+    /// What the picture of a run shows; none: motion, residuals and multipliers.
+    pub panels: Vec<Panel>,
+}
+
+/// One panel of the picture of a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Panel {
+    /// Label of its axis, with the unit.
+    pub label: String,
+    /// Its curves; each is the sum of one or more result columns.
+    pub curves: Vec<Vec<String>>,
 }
 
 /// How a run treats its workers.

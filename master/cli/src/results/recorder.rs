@@ -10,6 +10,7 @@ use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
+use super::figure::traces;
 use super::{RunReport, Trace};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
@@ -27,7 +28,8 @@ pub struct RunRecorder {
     table: Option<csv::Writer<File>>,
     closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
-    traces: Vec<(usize, Trace)>,
+    scene: Scene,
+    traces: Vec<(Vec<usize>, Trace)>,
     motion: Option<Motion>,
     bar: ProgressBar,
     t_start: f64,
@@ -50,6 +52,7 @@ impl RunRecorder {
             table: None,
             closed_form: ClosedForm::of(scene),
             errors: None,
+            scene: scene.clone(),
             traces: Vec::new(),
             motion: None,
             bar: if shows_progress {
@@ -129,10 +132,7 @@ impl Recorder for RunRecorder {
     }
 
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
-        let columns = row.columns().iter().enumerate();
-        let trace =
-            |(place, name): (usize, &String)| Some((place, Trace::new(name, row.drawn(place)?)));
-        self.traces = columns.filter_map(trace).collect();
+        self.traces = traces(&self.scene, row);
         self.errors = self
             .closed_form
             .take()
@@ -142,10 +142,10 @@ impl Recorder for RunRecorder {
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
-        for (place, trace) in &mut self.traces {
-            trace
-                .points
-                .push(|| (row.values()[0], row.values()[*place]));
+        for (places, trace) in &mut self.traces {
+            let values = row.values();
+            let sum = || places.iter().map(|place| values[*place]).sum();
+            trace.points.push(|| (values[0], sum()));
         }
         if let Some(errors) = &mut self.errors {
             errors.add(row);

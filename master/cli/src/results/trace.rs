@@ -1,7 +1,5 @@
 //! A time series in bounded memory, for pictures.
 
-use linchpin_master::results::Drawn;
-
 use super::Thinned;
 
 /// Most points that are kept.
@@ -10,20 +8,23 @@ const MOST_POINTS: usize = 1 << 16;
 /// Points `(t, y)` of a long run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Result column.
+    /// Result column, or the sum of several.
     pub name: String,
-    /// What it shows.
-    pub kind: Drawn,
+    /// Number of its panel in the picture.
+    pub panel: usize,
+    /// Whether it shows multipliers.
+    pub shows_multipliers: bool,
     /// Times in s and values.
     pub points: Thinned<(f64, f64)>,
 }
 
 impl Trace {
-    /// An empty series of a result column.
-    pub fn new(name: &str, kind: Drawn) -> Self {
+    /// An empty series of one or more result columns.
+    pub fn new(name: String, panel: usize, shows_multipliers: bool) -> Self {
         Self {
-            name: name.to_owned(),
-            kind,
+            name,
+            panel,
+            shows_multipliers,
             points: Thinned::at_most(MOST_POINTS),
         }
     }

@@ -1,0 +1,114 @@
+//! Reads `[output]`: what is recorded and drawn.
+
+use super::error_kind::SceneErrorKind;
+use super::joint::find_subsystem;
+use super::names::Registry;
+use super::reader::{Field, Problems, Section};
+use super::resolve::collect;
+use super::resolved::{Output, Panel};
+
+const VARIABLES: &str = "a list of outputs such as [\"mass1.v\"]";
+const COLUMNS: &str = "a list of result columns such as [\"link.lambda\", \"a.energy + b.energy\"]";
+
+pub(super) fn read(
+    root: &Section<'_>,
+    subsystems: &Registry<'_>,
+    problems: &mut Problems<'_>,
+) -> Option<Output> {
+    let Some(field) = root.get("output") else {
+        return Some(Output {
+            every: 1,
+            variables: None,
+            panels: Vec::new(),
+        });
+    };
+    let section = field.section(problems)?;
+    section.allow_only(&["every", "variables", "panel"], problems);
+    let every = section
+        .get("every")
+        .map_or(Some(1), |field| field.whole(1, usize::MAX, problems));
+    let variables = match section.get("variables") {
+        Some(field) => field
+            .items(VARIABLES, problems)
+            .and_then(|items| {
+                check_repeated(&items, problems);
+                collect(&items, |item| read_variable(item, subsystems, problems))
+            })
+            .map(Some),
+        None => Some(None),
+    };
+    let panels = match section.get("panel") {
+        Some(field) => field
+            .items("tables headed [[output.panel]]", problems)
+            .and_then(|items| collect(&items, |item| read_panel(item, problems))),
+        None => Some(Vec::new()),
+    };
+    Some(Output {
+        every: every?,
+        variables: variables?,
+        panels: panels?,
+    })
+}
+
+fn read_panel(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Panel> {
+    let section = field.section(problems)?;
+    section.allow_only(&["label", "columns"], problems);
+    let label = section
+        .require("label", "label = \"angle in rad\"", problems)
+        .and_then(|field| field.text(problems));
+    let columns = section
+        .require("columns", "columns = [\"link1.angle\"]", problems)
+        .and_then(|field| field.texts(COLUMNS, problems));
+    let sum = |field: &Field<'_>| {
+        let terms = field.text(problems)?.split('+');
+        Some(terms.map(|term| term.trim().to_owned()).collect())
+    };
+    let curves = columns.and_then(|fields| collect(&fields, sum));
+    Some(Panel {
+        label: label?.to_owned(),
+        curves: curves?,
+    })
+}
+
+fn read_variable(
+    field: &Field<'_>,
+    subsystems: &Registry<'_>,
+    problems: &mut Problems<'_>,
+) -> Option<String> {
+    let text = field.text(problems)?;
+    match text.split_once('.') {
+        Some((name, output)) if !output.is_empty() => {
+            find_subsystem(name, field, subsystems, problems)?;
+            Some(text.to_owned())
+        }
+        _ => {
+            let kind = SceneErrorKind::InvalidReference {
+                key: field.key.clone(),
+                found: text.to_owned(),
+                allowed: "SUBSYSTEM.OUTPUT",
+            };
+            field.report(kind, problems);
+            None
+        }
+    }
+}
+
+fn check_repeated(items: &[Field<'_>], problems: &mut Problems<'_>) {
+    for (i, item) in items.iter().enumerate() {
+        let earlier = items[..i].iter().find(|earlier| {
+            earlier.peek_text().is_some() && earlier.peek_text() == item.peek_text()
+        });
+        if let (Some(earlier), Some(name)) = (earlier, item.peek_text()) {
+            let kind = SceneErrorKind::DuplicateName {
+                key: item.key.clone(),
+                name: name.to_owned(),
+                taken_by: "recorded output",
+                line: problems
+                    .written
+                    .place(&earlier.node.spot)
+                    .map(|place| place.line),
+            };
+            item.report(kind, problems);
+        }
+    }
+}
