@@ -83,7 +83,7 @@ fn orders_of_convergence() {
         ),
         (
             "weighted a=2 b=2.6 degree=2 exchanged_degree=2",
-            [3.0, 3.0, 2.5],
+            [3.0, 3.0, 3.0],
         ),
         // Mixed degrees: the multiplier constant, the exchanged motion a parabola.
         (
