@@ -61,7 +61,7 @@ impl InitialState {
     }
 
     /// Exchanged variables as the subsystems show them under these multipliers, 0 if none are given.
-    fn read(
+    pub(super) fn read(
         scene: &Scene,
         layout: &Layout,
         parts: &Parts,
@@ -183,7 +183,7 @@ impl InitialState {
 }
 
 /// Outputs that `layout` reads of all subsystems under the variables of `state`.
-fn evaluate_all(
+pub(super) fn evaluate_all(
     layout: &Layout,
     parts: &Parts,
     t: f64,

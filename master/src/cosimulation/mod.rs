@@ -9,14 +9,16 @@ mod refusal;
 mod start;
 mod subsystem;
 mod tie;
+mod velocities;
 
 use std::time::Instant;
 
-use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
+use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
 
 pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use subsystem::Subsystem;
 pub use tie::multiplier_columns;
+pub use velocities::FreeVelocity;
 
 use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::Layout;
@@ -24,8 +26,10 @@ use crate::coupling::penalty::Penalty;
 use crate::coupling::semi_implicit::SemiImplicit;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics, Verdict};
+use crate::scene::Scene;
 use crate::time::{MacroGrid, MacroStep};
 
+use refusal::refuse_setup;
 pub use start::{Connect, Options, describe};
 pub(crate) use subsystem::exchange;
 
@@ -136,6 +140,20 @@ impl CoSimulation {
 }
 
 impl Parts {
+    /// Starts the instance of a subsystem anew.
+    fn restart(
+        &mut self,
+        scene: &Scene,
+        number: usize,
+        models: &[v1::Model],
+        request: &v1::InitializeRequest,
+    ) -> Result<(), RunError> {
+        let subsystem = &mut self.subsystems[number];
+        let restarted = subsystem.restart(request.clone());
+        let refuse = |error| refuse_setup(scene, number, &models[number], subsystem, error);
+        restarted.map_err(refuse)
+    }
+
     /// Makes every subsystem's next request advance over `step`; the signals are filled in by the method.
     pub(crate) fn prepare_advance(&mut self, step: MacroStep) {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {

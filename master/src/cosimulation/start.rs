@@ -9,7 +9,7 @@ use super::refusal::{Refusals, refuse_setup};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
-use super::{CoSimulation, Parts, Scheme, Subsystem};
+use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use crate::connection::{Connection, StartError};
 use crate::coupling::columns::Increments;
 use crate::coupling::condition::{Condition, level_of};
@@ -63,17 +63,22 @@ impl CoSimulation {
         if options.record_markers {
             record_markers(&models, &layout.outputs, &mut recorded);
         }
+        let mut requests: Vec<_> = (0..subsystems.len())
+            .map(|number| {
+                initialize_request(scene, number, &models, &joints, &layout, &recorded[number])
+            })
+            .collect();
         let mut refusals = Refusals::default();
         for (number, subsystem) in subsystems.iter_mut().enumerate() {
-            let request =
-                initialize_request(scene, number, &models, &joints, &layout, &recorded[number]);
-            if let Err(error) = subsystem.initialize(request) {
+            if let Err(error) = subsystem.initialize(requests[number].clone()) {
                 let model = &models[number];
                 refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
             }
         }
         refusals.finish()?;
         let mut parts = Parts { subsystems, layout };
+        let free_velocities =
+            velocities::choose(scene, &coupled, &models, &mut requests, &mut parts)?;
         let is_spring = matches!(
             scene.coupling.method,
             Method::Jacobi { .. } | Method::GaussSeidel { .. }
@@ -97,7 +102,8 @@ impl CoSimulation {
             Scheme::Penalty(_) => Guard::of_springs(),
             _ => Guard::of_rigid_joints(),
         };
-        let statistics = Statistics::new(&parts.layout);
+        let mut statistics = Statistics::new(&parts.layout);
+        statistics.free_velocities = free_velocities;
         Ok(Self {
             parts,
             scheme,

@@ -91,6 +91,15 @@ impl Subsystem {
         Ok(())
     }
 
+    /// Ends the instance and makes it anew.
+    pub(crate) fn restart(&mut self, request: v1::InitializeRequest) -> Result<(), CallError> {
+        let terminate = v1::TerminateRequest {
+            instance: self.instance,
+        };
+        self.connection.contract().terminate(&terminate)?;
+        self.initialize(request)
+    }
+
     /// Outputs `names` at `t` under constant inputs, by a call outside the macro step.
     pub(crate) fn evaluate(
         &self,

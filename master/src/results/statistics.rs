@@ -5,7 +5,7 @@ use std::time::Duration;
 use serde::Serialize;
 
 use super::{Row, Verdict};
-use crate::cosimulation::{Outcome, Subsystem};
+use crate::cosimulation::{FreeVelocity, Outcome, Subsystem};
 use crate::coupling::layout::Layout;
 
 /// What a run cost and how well its joints held.
@@ -29,6 +29,8 @@ pub struct Statistics {
     pub verdicts: Verdicts,
     /// Largest residuals of every joint.
     pub joints: Vec<JointResiduals>,
+    /// Initial velocities that were chosen so that they meet the joints.
+    pub free_velocities: Vec<FreeVelocity>,
     /// The share of every subsystem.
     pub subsystems: Vec<SubsystemStatistics>,
 }

@@ -165,6 +165,8 @@ pub struct Subsystem {
     pub model: Option<String>,
     /// Parameters of the model, not yet checked against it.
     pub parameters: BTreeMap<String, v1::Value>,
+    /// Parameters of the model, initial velocities, that are chosen so that the joints meet on velocity level.
+    pub free_velocities: Vec<String>,
     /// Solver and its options; absent: the default of the model.
     pub solver: Option<v1::Solver>,
     /// How the worker is called.

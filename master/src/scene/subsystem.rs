@@ -10,17 +10,19 @@ use super::reader::{FINITE, Field, Problems, Section};
 use super::resolved::{Calls, Served, Subsystem};
 use super::written::Value;
 
-const KEYS: [&str; 7] = [
+const KEYS: [&str; 8] = [
     "name",
     "model",
     "address",
     "command",
     "parameters",
+    "free_velocities",
     "solver",
     "calls",
 ];
 const CALLS: [(&str, Calls); 2] = [("automatic", Calls::Automatic), ("unary", Calls::Unary)];
 const VALUE: &str = "a number, a text, true or false, or a list of numbers";
+const VELOCITIES: &str = "a list of parameters such as [\"vx0\", \"vy0\"]";
 const COMMAND: &str = "a list of texts, the program first";
 
 pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Subsystem> {
@@ -37,6 +39,10 @@ pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
         Some(field) => read_parameters(&field, problems),
         None => Some(BTreeMap::new()),
     };
+    let free_velocities = match section.get("free_velocities") {
+        Some(field) => read_texts(&field, problems),
+        None => Some(Vec::new()),
+    };
     let solver = match section.get("solver") {
         Some(field) => read_solver(&field, problems).map(Some),
         None => Some(None),
@@ -51,9 +57,19 @@ pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
         served: served?,
         model: model?,
         parameters: parameters?,
+        free_velocities: free_velocities?,
         solver: solver?,
         calls: calls?,
     })
+}
+
+fn read_texts(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<String>> {
+    let fields = field.texts(VELOCITIES, problems)?;
+    let texts = fields
+        .iter()
+        .map(|field| field.text(problems).map(str::to_owned));
+    let texts: Vec<Option<String>> = texts.collect();
+    texts.into_iter().collect()
 }
 
 fn read_model(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String> {

@@ -40,6 +40,7 @@ struct Json<'a> {
     t_end: f64,
     macro_step: f64,
     degree: usize,
+    exchanged_degree: usize,
     method: Method,
     wall_time: f64,
     statistics: &'a Statistics,
@@ -78,6 +79,7 @@ impl RunReport {
             t_end: scene.t_end,
             macro_step: scene.coupling.macro_step,
             degree: scene.coupling.degree,
+            exchanged_degree: scene.coupling.exchanged_degree,
             method: scene.coupling.method,
             wall_time: self.wall_time,
             statistics: &self.statistics,
@@ -122,6 +124,14 @@ impl RunReport {
                 "  error of {column:<22} {:>10.3e} relative (rms), {:>10.3e} largest",
                 error.normalised(),
                 error.largest()
+            )?;
+        }
+        for velocity in &statistics.free_velocities {
+            let name = format!("{}.{}", velocity.subsystem, velocity.parameter);
+            writeln!(
+                text,
+                "  start with {name:<21} {:>10.6} chosen, {} given",
+                velocity.found, velocity.given
             )?;
         }
         for joint in &statistics.joints {
