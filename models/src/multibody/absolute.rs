@@ -12,9 +12,9 @@ use nalgebra::DVector;
 
 use super::condition::Condition;
 use super::constraints::{Constraints, Factors};
+use super::dimension::Dimension;
 use super::formulation::{Dynamics, Formulation, Unsettled};
 use super::joint::JointKind;
-use super::dimension::Dimension;
 use super::kinematics::{Kinematics, NO_LOAD, Twist, add_load};
 use super::system::System;
 
@@ -42,7 +42,11 @@ impl Absolute {
         let conditions = system.conditions();
         let owner = |condition: &Condition| {
             let mut joints = system.joints.iter();
-            let place = match system.motions.iter().find(|own| own.place == condition.place) {
+            let place = match system
+                .motions
+                .iter()
+                .find(|own| own.place == condition.place)
+            {
                 Some(motion) => return motion.joint(),
                 None => &condition.place,
             };
@@ -231,7 +235,9 @@ impl Formulation for Absolute {
         let (speeds, angles) = rest.split_at_mut(angles - speeds);
         let own = coordinates.chunks_mut(dimension.coordinates());
         let own = own.zip(speeds.chunks_mut(dimension.speeds()));
-        let moving = kinematics.bodies[1..].iter().zip(&solution.accelerations[1..]);
+        let moving = kinematics.bodies[1..]
+            .iter()
+            .zip(&solution.accelerations[1..]);
         for ((body, acceleration), (coordinates, speeds)) in moving.zip(own) {
             dimension.put_position_rate(body, coordinates);
             dimension.put_twist(acceleration, speeds);
@@ -276,7 +282,8 @@ fn names(system: &System, turning: &[usize]) -> Vec<String> {
     };
     let of_bodies = |parts: &[&str]| -> Vec<String> {
         let bodies = system.bodies[1..].iter();
-        let names = bodies.flat_map(|body| parts.iter().map(|part| format!("{}.{part}", body.name)));
+        let names =
+            bodies.flat_map(|body| parts.iter().map(|part| format!("{}.{part}", body.name)));
         names.collect()
     };
     let joints = turning.iter().map(|&joint| &system.joints[joint].name);

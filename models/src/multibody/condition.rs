@@ -116,8 +116,7 @@ impl Condition {
                 let axis = a.arm(&axis);
                 ends.poses[0].rotation *= turn.into_inner();
                 ends.spin = angle.rate * axis;
-                ends.spin_rate =
-                    angle.acceleration * axis + a.twist.angular.cross(&ends.spin);
+                ends.spin_rate = angle.acceleration * axis + a.twist.angular.cross(&ends.spin);
                 ends.twists[0].angular += ends.spin;
             }
         }

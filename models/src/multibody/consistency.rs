@@ -1,8 +1,8 @@
 //! Whether a composition can start as the scene says: closed, with velocities that fit, and no condition twice.
 
+use super::condition::{Condition, Row};
 use super::constraints::Constraints;
 use super::error::CompositionError;
-use super::condition::{Condition, Row};
 use super::system::System;
 
 /// Residual, relative to what it is the sum of, that is taken for rounding.
@@ -17,7 +17,9 @@ pub fn check(system: &System) -> Result<(), CompositionError> {
     let start = system.start();
     let t = system.t_start();
     let rows = conditions.iter();
-    let rows: Vec<Row> = rows.map(|condition| condition.row(t, &start.bodies)).collect();
+    let rows: Vec<Row> = rows
+        .map(|condition| condition.row(t, &start.bodies))
+        .collect();
     let largest = start.bodies.iter().map(|body| body.pose.position.amax());
     let size = 1.0 + largest.fold(0.0, f64::max);
     if let Some((place, residual)) = worst(rows.iter().map(|row| row.residual), |_| size) {
@@ -56,9 +58,8 @@ fn worst(
     size: impl Fn(usize) -> f64,
 ) -> Option<(usize, f64)> {
     let sized = residuals.enumerate();
-    let beyond = sized.filter(|(place, residual)| {
-        residual.is_nan() || residual.abs() > ROUNDING * size(*place)
-    });
+    let beyond = sized
+        .filter(|(place, residual)| residual.is_nan() || residual.abs() > ROUNDING * size(*place));
     beyond
         .map(|(place, residual)| (place, residual.abs()))
         .max_by(|(_, a), (_, b)| a.total_cmp(b))

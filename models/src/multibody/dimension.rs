@@ -132,6 +132,15 @@ impl Dimension {
         }
     }
 
+    /// One component of a twist, in the order of the speeds.
+    pub fn component(self, twist: &Twist, component: usize) -> f64 {
+        match (self, component) {
+            (Self::Plane, 2) => twist.angular.z,
+            (_, 0..3) => twist.linear[component],
+            _ => twist.angular[component - 3],
+        }
+    }
+
     /// Writes the coordinates of a motion.
     pub fn put_position(self, motion: &BodyMotion, coordinates: &mut [f64]) {
         let position = motion.pose.position;

@@ -171,8 +171,7 @@ impl Edge {
                 }
             }
             Freedom::Slide(axis) => {
-                let arm = inner.arm(&self.points[0])
-                    + self.start_coordinate * inner.arm(axis);
+                let arm = inner.arm(&self.points[0]) + self.start_coordinate * inner.arm(axis);
                 let carried = inner.twist.shifted(&arm).linear;
                 let moving = outer.velocity(&self.points[1]) - carried;
                 coordinates[0] = self.start_coordinate;
@@ -186,7 +185,13 @@ impl Edge {
     }
 
     /// Writes the rates of the coordinates.
-    pub fn put_coordinate_rates(&self, motion: &BodyMotion, coordinates: &[f64], speeds: &[f64], rates: &mut [f64]) {
+    pub fn put_coordinate_rates(
+        &self,
+        motion: &BodyMotion,
+        coordinates: &[f64],
+        speeds: &[f64],
+        rates: &mut [f64],
+    ) {
         match &self.freedom {
             Freedom::Free(dimension) => dimension.put_position_rate(motion, rates),
             Freedom::Turns(_) | Freedom::Slide(_) => rates.copy_from_slice(speeds),
@@ -318,17 +323,10 @@ impl JointFrame {
         }
     }
 
-    fn turn(
-        &mut self,
-        axis: &Vector3<f64>,
-        angle: f64,
-        own: &Coordinate,
-        column: Option<usize>,
-    ) {
+    fn turn(&mut self, axis: &Vector3<f64>, angle: f64, own: &Coordinate, column: Option<usize>) {
         let axis_in_space = self.orientation.rotation() * axis;
         let omega = own.rate * axis_in_space;
-        self.bias.angular +=
-            own.acceleration * axis_in_space + self.twist.angular.cross(&omega);
+        self.bias.angular += own.acceleration * axis_in_space + self.twist.angular.cross(&omega);
         self.twist.angular += omega;
         self.turn_by(&self.orientation.about(axis, angle));
         self.columns.extend(column.map(|place| {

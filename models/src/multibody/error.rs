@@ -34,7 +34,9 @@ pub enum CompositionError {
         field: String,
     },
     /// Both ends on one body.
-    #[error("both ends are on {body:?}; they must be on two bodies, of which one may be \"ground\"")]
+    #[error(
+        "both ends are on {body:?}; they must be on two bodies, of which one may be \"ground\""
+    )]
     OneBody {
         /// Place.
         field: String,
@@ -154,7 +156,9 @@ pub enum CompositionError {
         field: String,
     },
     /// Two motions of one joint.
-    #[error("the motion of the joint {joint:?} is prescribed already by {other}; remove one of them")]
+    #[error(
+        "the motion of the joint {joint:?} is prescribed already by {other}; remove one of them"
+    )]
     DrivenTwice {
         /// Place.
         field: String,

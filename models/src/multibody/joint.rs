@@ -97,11 +97,7 @@ pub fn read(
 }
 
 impl Joint {
-    fn read(
-        entry: &Entry<'_>,
-        bodies: &[Body],
-        dimension: Dimension,
-    ) -> Result<Self, SetupError> {
+    fn read(entry: &Entry<'_>, bodies: &[Body], dimension: Dimension) -> Result<Self, SetupError> {
         let kinds: &[_] = match dimension {
             Dimension::Plane => &PLANAR_KINDS,
             Dimension::Space => &SPATIAL_KINDS,
@@ -120,7 +116,10 @@ impl Joint {
             kind,
             bodies: pair,
             points: read_points(entry, starts)?,
-            axes: [starts[0].local_vector(&axis), starts[1].local_vector(&second)],
+            axes: [
+                starts[0].local_vector(&axis),
+                starts[1].local_vector(&second),
+            ],
             across: starts.map(|start| start.local_vector(&across)),
             dimension,
         })
@@ -227,10 +226,7 @@ impl Joint {
         }
         // Its derivative with respect to the angle is 1 at the start and wherever the condition holds.
         let law = Law::Perpendicular {
-            axes: [
-                self.axes[0].cross(&self.across[0]),
-                self.across[1],
-            ],
+            axes: [self.axes[0].cross(&self.across[0]), self.across[1]],
         };
         let axis = self.axes[0];
         self.condition(

@@ -55,9 +55,7 @@ impl Orientation {
     /// The turn that leads from this one to `other`, in the axes of this one.
     pub fn to(&self, other: &Self) -> Self {
         match (self, other) {
-            (Self::Attitude(own), Self::Attitude(other)) => {
-                Self::Attitude(own.conjugate() * other)
-            }
+            (Self::Attitude(own), Self::Attitude(other)) => Self::Attitude(own.conjugate() * other),
             (Self::Angle(own), Self::Angle(other)) => Self::Angle(other - own),
             _ => *other,
         }

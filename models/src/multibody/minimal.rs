@@ -96,7 +96,11 @@ impl Minimal {
         let mut right = DVector::zeros(n);
         for ((body, moving), load) in self.system.bodies.iter().zip(moving).zip(loads) {
             let mut acting = *load;
-            add_load(&mut acting, -1.0, &body.momentum(&moving.motion, &moving.bias));
+            add_load(
+                &mut acting,
+                -1.0,
+                &body.momentum(&moving.motion, &moving.bias),
+            );
             for (i, twist) in &moving.columns {
                 right[*i] += twist.power(&acting);
                 let momentum = body.momentum(&moving.motion, twist);
@@ -134,7 +138,11 @@ impl Minimal {
             let on_inner = moved_load(&on_outer, &arm);
             add_load(&mut needed[edge.inner], 1.0, &on_inner);
             if let Some(joint) = edge.joint {
-                let on_b = if edge.sign > 0.0 { &on_outer } else { &on_inner };
+                let on_b = if edge.sign > 0.0 {
+                    &on_outer
+                } else {
+                    &on_inner
+                };
                 add_load(&mut reactions[joint], edge.sign, on_b);
             }
         }

@@ -168,11 +168,6 @@ impl System {
         let turned = turned.map(|spring| spring.energy(kinematics));
         own.chain(springs).chain(turned).sum()
     }
-
-    /// Number of inputs without those of joint loads.
-    pub fn number_of_inputs(&self) -> usize {
-        self.markers.len() * self.dimension.load_components()
-    }
 }
 
 fn coordinates(plain: &Entry<'_>) -> Result<Coordinates, SetupError> {

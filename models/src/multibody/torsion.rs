@@ -89,7 +89,9 @@ impl TorsionSpring {
 
     /// Angle beyond that of rest.
     fn turn(&self, kinematics: &Kinematics) -> f64 {
-        let [a, b] = self.bodies.map(|place| kinematics.bodies[place].orientation);
+        let [a, b] = self
+            .bodies
+            .map(|place| kinematics.bodies[place].orientation);
         let angle = match (self.joint, a.to(&b)) {
             (Some(joint), _) => kinematics.angles[joint],
             (None, Orientation::Angle(angle)) => angle,
