@@ -2,12 +2,12 @@
 //!
 //! The scene composes it in nested tables of its parameters, and only what it names is built:
 //!
-//! * [`schema`], [`entries`]: the tables and keys, and how they are read;
-//! * [`body`], [`joint`], [`spring`], [`torsion`], [`motion`], [`marker`]: what can be composed; [`system`]: the whole;
-//! * [`dimension`], [`kinematics`]: motion of bodies, in the plane and in space;
-//! * [`condition`], [`constraints`], [`consistency`]: what joints and motions demand, reactions, checks of the start;
-//! * [`absolute`]: an index-1 DAE with projection; [`tree`], [`edge`], [`minimal`]: coordinates of the joints;
-//! * [`formulation`], [`run`]: either of them as a subsystem; [`outputs`], [`description`]: what a master sees.
+//! * `schema`, `entries`: the tables and keys, and how they are read;
+//! * `body`, `joint`, `spring`, `torsion`, `motion`, `marker`: what can be composed; `system`: the whole;
+//! * `dimension`, `kinematics`: motion of bodies, in the plane and in space;
+//! * `condition`, `constraints`, `consistency`: what joints and motions demand, reactions, checks of the start;
+//! * `absolute`: an index-1 DAE with projection; `tree`, `edge`, `minimal`: coordinates of the joints;
+//! * `formulation`, `run`: either of them as a subsystem; `outputs`, `description`: what a master sees.
 
 mod absolute;
 mod body;

@@ -4,7 +4,7 @@
 
 mod common;
 
-use common::body::{Body, CASES, Case, model, solver};
+use common::body::{Body, CASES, Case, SHAKEN, model, solver};
 use common::{Solver, build_values, interval, polynomial, snapshot};
 use linchpin_proto::v1::value::Kind;
 use linchpin_worker::{Inputs, Snapshot, StepFailure, Subsystem};
@@ -24,7 +24,7 @@ fn subjects() -> Vec<Subject> {
             .into_iter()
             .map(move |solver| Subject { case, solver })
     };
-    CASES.into_iter().flat_map(of_case).collect()
+    CASES.into_iter().chain(SHAKEN).flat_map(of_case).collect()
 }
 
 impl Subject {

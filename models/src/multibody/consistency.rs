@@ -52,17 +52,15 @@ pub fn check(system: &System) -> Result<(), CompositionError> {
     }
 }
 
-/// The largest residual beyond rounding, with its place.
+/// The largest residual beyond rounding, the first of equal ones, with its place.
 fn worst(
     residuals: impl Iterator<Item = f64>,
     size: impl Fn(usize) -> f64,
 ) -> Option<(usize, f64)> {
-    let sized = residuals.enumerate();
-    let beyond = sized
-        .filter(|(place, residual)| residual.is_nan() || residual.abs() > ROUNDING * size(*place));
-    beyond
-        .map(|(place, residual)| (place, residual.abs()))
-        .max_by(|(_, a), (_, b)| a.total_cmp(b))
+    let sized = residuals.map(f64::abs).enumerate();
+    let beyond =
+        sized.filter(|(place, residual)| residual.is_nan() || *residual > ROUNDING * size(*place));
+    beyond.reduce(|worst, next| if next.1 > worst.1 { next } else { worst })
 }
 
 fn redundant(conditions: &[Condition], place: usize) -> CompositionError {

@@ -43,7 +43,9 @@ impl<'a> Entries<'a> {
             let parts: Vec<&str> = dotted.split('.').collect();
             let (table, entry, key) = match parts[..] {
                 [key] => ("", "", key),
-                [table, entry, key] if !table.is_empty() => (table, entry, key),
+                [table, entry, key] if !table.is_empty() && !entry.is_empty() => {
+                    (table, entry, key)
+                }
                 _ => return Err(unknown(dotted, dotted_names(dimension))),
             };
             let known = dimension.keys_of(table);

@@ -77,8 +77,8 @@ impl Growth<'_> {
                 return Err(CompositionError::Loop { field });
             }
             self.is_reached[outer] = true;
-            let motion = self.system.motions.iter();
-            let motion = motion.filter(|motion| motion.joint() == Some(place)).last();
+            let mut motions = self.system.motions.iter();
+            let motion = motions.find(|motion| motion.joint() == Some(place));
             let course = motion.map(|motion| motion.course);
             let bodies: &[Body] = &self.system.bodies;
             self.push(Edge::of_joint(place, joint, outer_end, bodies, course));

@@ -7,7 +7,7 @@ use linchpin_proto::v1;
 use linchpin_worker::{Inputs, Model, Subsystem};
 
 use super::mechanisms::{
-    Composition, Given, PLANAR_TREE, SLIDER_CRANK, SPATIAL_LOOP, SPATIAL_TREE, values,
+    Composition, Given, PLANAR_TREE, SHAKEN_CRANK, SLIDER_CRANK, SPATIAL_LOOP, SPATIAL_TREE, values,
 };
 use super::{Solver, build_values, interval, numbers};
 
@@ -143,6 +143,12 @@ pub const CASES: [Case; 10] = [
     Case::composed("spatial-multibody", SPATIAL_LOOP, false),
     Case::composed("spatial-multibody", SPATIAL_TREE, false),
     Case::composed("spatial-multibody", SPATIAL_TREE, true),
+];
+
+/// Systems with prescribed motion, which changes their energy.
+pub const SHAKEN: [Case; 2] = [
+    Case::composed("planar-multibody", SHAKEN_CRANK, false),
+    Case::composed("planar-multibody", SHAKEN_CRANK, true),
 ];
 
 /// All built-in models by name.

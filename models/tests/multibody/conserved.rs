@@ -24,11 +24,11 @@ fn every_mechanism_keeps_its_energy() {
         for _ in 0..100 {
             run.advance(0.05);
             largest = largest.max((run.read_one("energy") - start).abs());
-            let speed: f64 = run.read(&marker[..2]).iter().map(|v| v * v).sum();
+            let speed: f64 = run.read(&marker).iter().map(|v| v * v).sum();
             exchanged = exchanged.max(speed);
         }
         println!("{} minimal {}: {largest:e}", case.model, case.is_minimal);
-        assert!(exchanged > 1.0, "it hardly moved");
+        assert!(exchanged > 0.5, "{} hardly moved: {exchanged}", case.model);
         assert!(largest < 1e-8, "{}: {largest:e}", case.model);
     }
 }
@@ -163,7 +163,7 @@ const FLOATING: &[(&str, Given)] = &[
 fn a_floating_mechanism_keeps_momentum_and_angular_momentum() {
     let bodies: [(&str, f64, [f64; 3]); 6] = [
         ("arm", 1.3, [0.17, 0.29, 0.23]),
-        ("rod", 0.7, [0.05, 0.31, 0.33]),
+        ("rod", 0.7, [0.27, 0.31, 0.33]),
         ("bob", 0.9, [0.11, 0.13, 0.19]),
         ("block", 0.6, [0.07, 0.08, 0.09]),
         ("cap", 0.3, [0.02, 0.03, 0.04]),

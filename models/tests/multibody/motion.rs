@@ -4,10 +4,12 @@ use std::f64::consts::TAU;
 
 use linchpin_models::integrators::Ode;
 use linchpin_models::integrators::radau::{Radau, Tolerances};
+use linchpin_worker::{Inputs, Setup};
 
 use crate::common::body::{Body, TIGHT, difference};
+use crate::common::interval;
 use crate::common::mechanisms::Given::{List as L, Number as N, Text as T};
-use crate::common::mechanisms::{Composition, Given, with};
+use crate::common::mechanisms::{Composition, Given, values, with};
 use crate::{FORMULATIONS, planar, spatial};
 
 const AMPLITUDE: f64 = 0.06;
@@ -307,5 +309,47 @@ fn driven_trees_move_in_the_same_way_in_both() {
             );
         }
         runs.iter_mut().for_each(|run| run.advance(0.05));
+    }
+}
+
+/// The time of a motion is that of the scene, wherever the run starts and however it is cut into macro steps.
+#[test]
+fn a_motion_counts_the_time_of_the_scene() {
+    let composition: Vec<(&str, Given)> = vec![
+        ("body.crank.m", N(1.0)),
+        ("body.crank.inertia", N(0.1)),
+        ("body.crank.angle", N(0.25 + 1.5 * 1.25)),
+        ("body.crank.rate", N(1.5)),
+        ("joint.hinge.kind", T("revolute")),
+        ("joint.hinge.a", T("ground")),
+        ("joint.hinge.b", T("crank")),
+        ("joint.hinge.point", L(&[0.0, 0.0])),
+        ("motion.drive.joint", T("hinge")),
+        ("motion.drive.offset", N(0.25)),
+        ("motion.drive.speed", N(1.5)),
+        ("marker.crank.body", T("crank")),
+    ];
+    let planar = crate::common::body::model("planar-multibody");
+    for formulation in FORMULATIONS {
+        let given = values(&with(&composition, &[("formulation", T(formulation))]));
+        let description = planar.describe_with(&given).unwrap();
+        let setup = Setup::from_request(&description, given, None, 1.25).unwrap();
+        let mut run = planar.initialize(&setup).unwrap();
+        let inputs = Inputs::constant(&vec![0.0; description.inputs.len()]);
+        let place = description
+            .outputs
+            .iter()
+            .position(|own| own.name == "crank_angle");
+        for step in 1..=7 {
+            let t = 1.25 + 0.3 * f64::from(step);
+            run.step(interval(t - 0.3, 0.3), &inputs).unwrap();
+            let mut angle = [0.0];
+            run.outputs(t, &[0.0; 3], &[place.unwrap()], &mut angle)
+                .unwrap();
+            assert!(
+                (angle[0] - 0.25 - 1.5 * t).abs() < 1e-13,
+                "{formulation} {t}"
+            );
+        }
     }
 }
