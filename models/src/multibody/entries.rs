@@ -124,12 +124,11 @@ impl<'a> Entry<'a> {
         let choice = choices.iter().find(|(word, _)| *word == found);
         choice.map(|(_, choice)| *choice).ok_or_else(|| {
             let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
-            let error = CompositionError::UnknownChoice {
+            SetupError::UnknownText {
                 field: self.field(key),
-                found: found.to_owned(),
-                allowed: words.join(", "),
-            };
-            error.into()
+                value: found.to_owned(),
+                known: words.join(", "),
+            }
         })
     }
 

@@ -5,16 +5,6 @@ use linchpin_worker::setup::SetupError;
 /// A mistake in a composition. `field` is its place, e.g. `parameters.joint.hinge.a`.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CompositionError {
-    /// A word that is none of the choices.
-    #[error("{found:?} is none of {allowed}")]
-    UnknownChoice {
-        /// Place.
-        field: String,
-        /// The word.
-        found: String,
-        /// The choices, separated by commas.
-        allowed: String,
-    },
     /// A body or joint that is not there.
     #[error("there is no {what} {found:?}; there are: {known}")]
     UnknownName {
@@ -180,8 +170,7 @@ pub enum CompositionError {
 impl CompositionError {
     fn field(&self) -> &str {
         match self {
-            Self::UnknownChoice { field, .. }
-            | Self::UnknownName { field, .. }
+            Self::UnknownName { field, .. }
             | Self::Ground { field }
             | Self::OneBody { field, .. }
             | Self::Point { field }

@@ -16,6 +16,11 @@ pub enum Given {
 
 use Given::{List as L, Number as N, Text as T};
 
+/// A list of values that are computed.
+pub fn list(values: &[f64]) -> Given {
+    L(Vec::leak(values.to_vec()))
+}
+
 /// Dotted names with their values.
 pub type Composition = &'static [(&'static str, Given)];
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod chains;
 #[path = "../common/mod.rs"]
 mod common;
 mod conserved;
@@ -10,6 +11,7 @@ mod mistakes;
 mod motion;
 mod planar;
 mod spatial;
+mod start_mistakes;
 
 use common::Solver;
 use common::body::Body;

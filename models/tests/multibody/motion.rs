@@ -9,7 +9,7 @@ use linchpin_worker::{Inputs, Setup};
 use crate::common::body::{Body, TIGHT, difference};
 use crate::common::interval;
 use crate::common::mechanisms::Given::{List as L, Number as N, Text as T};
-use crate::common::mechanisms::{Composition, Given, values, with};
+use crate::common::mechanisms::{Composition, Given, list, values, with};
 use crate::{FORMULATIONS, planar, spatial};
 
 const AMPLITUDE: f64 = 0.06;
@@ -61,16 +61,15 @@ const SPEED: f64 = AMPLITUDE * TAU * FREQUENCY;
 
 fn link() -> Vec<(&'static str, Given)> {
     let speed = SPEED * PHASE.cos();
-    let list = |values: [f64; 2]| L(Vec::leak(values.to_vec()));
     vec![
         ("body.link.m", N(M)),
         ("body.link.inertia", N(J)),
         (
             "body.link.position",
-            list([LENGTH * 0.3f64.cos(), LENGTH * 0.3f64.sin()]),
+            list(&[LENGTH * 0.3f64.cos(), LENGTH * 0.3f64.sin()]),
         ),
         ("body.link.angle", N(0.3)),
-        ("body.link.velocity", list([0.0, speed])),
+        ("body.link.velocity", list(&[0.0, speed])),
         ("marker.link.body", T("link")),
         ("motion.shake.amplitude", N(AMPLITUDE)),
         ("motion.shake.frequency", N(FREQUENCY)),
@@ -89,10 +88,7 @@ fn on_carriage(reversed: bool) -> Vec<(&'static str, Given)> {
     composition.extend([
         ("body.carriage.m", N(0.4)),
         ("body.carriage.inertia", N(0.3)),
-        (
-            "body.carriage.velocity",
-            L(Vec::leak(vec![0.0, SPEED * PHASE.cos()])),
-        ),
+        ("body.carriage.velocity", list(&[0.0, SPEED * PHASE.cos()])),
         ("joint.slide.kind", T("prismatic")),
         ("joint.slide.a", T(a)),
         ("joint.slide.b", T(b)),
@@ -149,28 +145,27 @@ fn a_driven_slider_crank_obeys_its_closed_form() {
     let tip_speed = [-speed * tip[1], speed * tip[0]];
     let slope_rate = -tip_speed[1] / (l * slope.cos());
     let slider_speed = tip_speed[0] - slope_rate * (height - tip[1]);
-    let list = |values: [f64; 2]| L(Vec::leak(values.to_vec()));
     let composition: Vec<(&str, Given)> = vec![
         ("body.crank.m", N(0.7)),
         ("body.crank.inertia", N(0.02)),
-        ("body.crank.position", list(tip.map(|own| 0.5 * own))),
-        ("body.crank.velocity", list(tip_speed.map(|own| 0.5 * own))),
+        ("body.crank.position", list(&tip.map(|own| 0.5 * own))),
+        ("body.crank.velocity", list(&tip_speed.map(|own| 0.5 * own))),
         ("body.crank.rate", N(speed)),
         ("body.rod.m", N(0.4)),
         ("body.rod.inertia", N(0.03)),
         (
             "body.rod.position",
-            list([0.5 * (tip[0] + slider[0]), 0.5 * (tip[1] + slider[1])]),
+            list(&[0.5 * (tip[0] + slider[0]), 0.5 * (tip[1] + slider[1])]),
         ),
         (
             "body.rod.velocity",
-            list([0.5 * (tip_speed[0] + slider_speed), 0.5 * tip_speed[1]]),
+            list(&[0.5 * (tip_speed[0] + slider_speed), 0.5 * tip_speed[1]]),
         ),
         ("body.rod.rate", N(slope_rate)),
         ("body.slider.m", N(1.9)),
         ("body.slider.inertia", N(0.1)),
-        ("body.slider.position", list(slider)),
-        ("body.slider.velocity", list([slider_speed, 0.0])),
+        ("body.slider.position", list(&slider)),
+        ("body.slider.velocity", list(&[slider_speed, 0.0])),
         ("joint.hinge.kind", T("revolute")),
         ("joint.hinge.a", T("ground")),
         ("joint.hinge.b", T("crank")),
@@ -178,15 +173,15 @@ fn a_driven_slider_crank_obeys_its_closed_form() {
         ("joint.pin.kind", T("revolute")),
         ("joint.pin.a", T("crank")),
         ("joint.pin.b", T("rod")),
-        ("joint.pin.point", list(tip)),
+        ("joint.pin.point", list(&tip)),
         ("joint.wrist.kind", T("revolute")),
         ("joint.wrist.a", T("rod")),
         ("joint.wrist.b", T("slider")),
-        ("joint.wrist.point", list(slider)),
+        ("joint.wrist.point", list(&slider)),
         ("joint.guide.kind", T("prismatic")),
         ("joint.guide.a", T("ground")),
         ("joint.guide.b", T("slider")),
-        ("joint.guide.point", list(slider)),
+        ("joint.guide.point", list(&slider)),
         ("joint.guide.axis", L(&[1.0, 0.0])),
         ("motion.drive.joint", T("hinge")),
         ("motion.drive.speed", N(speed)),
@@ -221,7 +216,6 @@ fn a_driven_slider_crank_obeys_its_closed_form() {
 fn a_universal_joint_turns_as_hooke_found() {
     const BETA: f64 = 0.6;
     let (sin, cos) = BETA.sin_cos();
-    let list = |values: [f64; 3]| L(Vec::leak(values.to_vec()));
     let composition: Vec<(&str, Given)> = vec![
         ("body.in.m", N(0.7)),
         ("body.in.inertia", L(&[0.02, 0.03, 0.04])),
@@ -229,9 +223,9 @@ fn a_universal_joint_turns_as_hooke_found() {
         ("body.in.omega", L(&[5.0, 0.0, 0.0])),
         ("body.out.m", N(0.9)),
         ("body.out.inertia", L(&[0.05, 0.03, 0.04])),
-        ("body.out.position", list([0.5 * cos, 0.5 * sin, 0.0])),
+        ("body.out.position", list(&[0.5 * cos, 0.5 * sin, 0.0])),
         ("body.out.attitude", list4(BETA)),
-        ("body.out.omega", L(Vec::leak(vec![5.0 * cos, 0.0, 0.0]))),
+        ("body.out.omega", list(&[5.0 * cos, 0.0, 0.0])),
         ("joint.bearing.kind", T("revolute")),
         ("joint.bearing.a", T("ground")),
         ("joint.bearing.b", T("in")),
@@ -242,7 +236,7 @@ fn a_universal_joint_turns_as_hooke_found() {
         ("joint.cross.b", T("out")),
         ("joint.cross.point", L(&[0.0, 0.0, 0.0])),
         ("joint.cross.axis", L(&[0.0, 0.0, 1.0])),
-        ("joint.cross.second_axis", list([-sin, cos, 0.0])),
+        ("joint.cross.second_axis", list(&[-sin, cos, 0.0])),
         ("motion.drive.joint", T("bearing")),
         ("motion.drive.speed", N(5.0)),
         ("motion.up.body", T("out")),
@@ -250,7 +244,7 @@ fn a_universal_joint_turns_as_hooke_found() {
         ("motion.up.direction", L(&[0.0, 0.0, 1.0])),
         ("motion.side.body", T("out")),
         ("motion.side.point", L(&[0.5, 0.0, 0.0])),
-        ("motion.side.direction", list([-sin, cos, 0.0])),
+        ("motion.side.direction", list(&[-sin, cos, 0.0])),
         ("marker.out.body", T("out")),
     ];
     let mut own = spatial(&composition, "absolute", TIGHT);
@@ -275,7 +269,7 @@ fn a_universal_joint_turns_as_hooke_found() {
 
 fn list4(angle: f64) -> Given {
     let half = 0.5 * angle;
-    L(Vec::leak(vec![half.cos(), 0.0, 0.0, half.sin()]))
+    list(&[half.cos(), 0.0, 0.0, half.sin()])
 }
 
 /// Both formulations of a tree with prescribed motions of both kinds, under loads.

@@ -8,8 +8,8 @@ use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use crate::common::agm;
 use crate::common::body::{Body, CASES, TIGHT, difference};
-use crate::common::mechanisms::Given;
 use crate::common::mechanisms::Given::{List as L, Number as N, Text as T};
+use crate::common::mechanisms::{Given, list};
 use crate::{FORMULATIONS, spatial};
 
 const M: f64 = 1.3;
@@ -22,7 +22,6 @@ fn body_about_origin(
     attitude: UnitQuaternion<f64>,
     omega: Vector3<f64>,
 ) -> Vec<(&'static str, Given)> {
-    let list = |values: &[f64]| L(Vec::leak(values.to_vec()));
     let own = attitude.inverse() * omega;
     let q = attitude.quaternion();
     vec![
@@ -234,7 +233,7 @@ fn a_torsional_spring_in_space_counts_full_turns() {
         ("joint.hinge.a", T("top")),
         ("joint.hinge.b", T("ground")),
         ("joint.hinge.point", L(&[0.0, 0.0, 0.0])),
-        ("joint.hinge.axis", L(Vec::leak(axis.as_slice().to_vec()))),
+        ("joint.hinge.axis", list(axis.as_slice())),
         ("torsion-spring.t.joint", T("hinge")),
         ("torsion-spring.t.stiffness", N(own.c)),
         ("torsion-spring.t.damping", N(own.d)),
