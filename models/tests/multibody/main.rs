@@ -6,6 +6,7 @@ mod chains;
 #[path = "../common/mod.rs"]
 mod common;
 mod conserved;
+mod extremes;
 mod formulations;
 mod mistakes;
 mod motion;
