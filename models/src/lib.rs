@@ -3,6 +3,7 @@
 //! * [`oscillator`]: one mass on a spring and a damper;
 //! * [`pendulum`], [`planar_body`]: rigid links in the plane, on a hinge and free;
 //! * [`spatial_body`]: a free rigid body in space;
+//! * [`multibody`]: systems of bodies with joints of their own, as a scene composes them;
 //! * [`integrators`]: time integration that several models share;
 //! * [`mod@reference`]: solutions that coupled runs are compared with.
 
@@ -10,6 +11,7 @@
 
 pub mod integrators;
 mod mechanics;
+pub mod multibody;
 pub mod oscillator;
 pub mod pendulum;
 pub mod planar_body;
@@ -25,5 +27,7 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(pendulum::Pendulum),
         Box::new(planar_body::PlanarBody),
         Box::new(spatial_body::SpatialBody),
+        Box::new(multibody::PlanarMultibody),
+        Box::new(multibody::SpatialMultibody),
     ]
 }

@@ -7,10 +7,10 @@
 //! * [`describe`], [`markers`]: parts of a description;
 //! * [`planar`], [`spatial`]: kinematics of rigid bodies.
 
-mod adaptive;
+pub mod adaptive;
 pub mod describe;
 pub mod equation;
-mod fixed;
+pub mod fixed;
 pub mod joint_loads;
 pub mod markers;
 pub mod planar;

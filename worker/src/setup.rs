@@ -73,6 +73,14 @@ pub enum SetupError {
         /// What is allowed.
         allowed: &'static str,
     },
+    /// Values that the model cannot put together: only it knows the rule.
+    #[error("{field}: {reason}")]
+    Refused {
+        /// Place.
+        field: String,
+        /// The rule that is broken, by what, and what to do.
+        reason: String,
+    },
 }
 
 impl SetupError {
@@ -83,7 +91,8 @@ impl SetupError {
             | Self::Unknown { field, .. }
             | Self::WrongType { field, .. }
             | Self::UnknownText { field, .. }
-            | Self::OutOfRange { field, .. } => field,
+            | Self::OutOfRange { field, .. }
+            | Self::Refused { field, .. } => field,
             Self::UnknownSolver { .. } => "solver.kind",
         }
     }
@@ -114,7 +123,12 @@ impl Setup {
         Self::from_request(model, parameters, solver, t_start)
     }
 
-    pub(crate) fn from_request(
+    /// Setup of a model with values of any type, as a request over the wire has them; defaults of the description are
+    /// filled in.
+    ///
+    /// # Errors
+    /// [`SetupError`]: names that are unknown or missing, a start time that is not finite.
+    pub fn from_request(
         model: &v1::Model,
         mut parameters: BTreeMap<String, v1::Value>,
         solver: Option<v1::Solver>,
@@ -185,6 +199,11 @@ impl Setup {
     /// All parameters.
     pub fn parameters(&self) -> Values<'_> {
         Values::parameters(&self.parameters)
+    }
+
+    /// All parameters by name, for models whose names are up to the scene.
+    pub fn all_parameters(&self) -> &BTreeMap<String, v1::Value> {
+        &self.parameters
     }
 
     /// A parameter that is a number.

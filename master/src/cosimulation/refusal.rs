@@ -55,6 +55,10 @@ pub(super) fn refuse_setup(
 /// The name in the model that a misspelt one was probably meant to be.
 fn nearest_field(field: &str, kind: Option<&str>, model: &v1::Model) -> Option<String> {
     let (name, known) = match field.split_once('.')? {
+        ("parameters", name) if name.contains('.') => {
+            let near = nearest_nested(name, &names(&model.parameters))?;
+            return Some(format!("did you mean `{near}`?"));
+        }
         ("parameters", name) => (name, names(&model.parameters)),
         ("solver", "kind") => (
             kind?,
@@ -77,4 +81,60 @@ fn nearest_field(field: &str, kind: Option<&str>, model: &v1::Model) -> Option<S
 
 fn names(parameters: &[v1::Parameter]) -> Vec<&str> {
     parameters.iter().map(|p| p.name.as_str()).collect()
+}
+
+/// The same for a parameter in nested tables, `table.entry.key`: names of entries are up to the scene.
+fn nearest_nested(name: &str, known: &[&str]) -> Option<String> {
+    let [table, entry, key] = nested(name)?;
+    let known: Vec<[&str; 3]> = known.iter().filter_map(|known| nested(known)).collect();
+    let own = known.iter().filter(|[other, ..]| *other == table);
+    let keys: Vec<&str> = own.map(|&[.., key]| key).collect();
+    if keys.is_empty() {
+        let tables = known.iter().map(|&[table, ..]| table);
+        return nearest(table, tables).map(|near| format!("{near}.{entry}.{key}"));
+    }
+    if keys.contains(&key) {
+        return None;
+    }
+    nearest(key, keys).map(|near| format!("{table}.{entry}.{near}"))
+}
+
+fn nested(name: &str) -> Option<[&str; 3]> {
+    let parts: Vec<&str> = name.split('.').collect();
+    parts.try_into().ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nested_parameters_are_compared_by_table_and_key() {
+        let parameter = |name: &str| v1::Parameter {
+            name: name.to_owned(),
+            ..Default::default()
+        };
+        let known = [
+            "gravity",
+            "body.NAME.inertia",
+            "body.NAME.m",
+            "joint.NAME.kind",
+        ];
+        let model = v1::Model {
+            parameters: known.map(parameter).to_vec(),
+            ..v1::Model::default()
+        };
+        for (field, near) in [
+            ("parameters.gravty", Some("gravity")),
+            ("parameters.body.link.inertja", Some("body.link.inertia")),
+            ("parameters.jiont.hinge.kind", Some("joint.hinge.kind")),
+            ("parameters.joint.hinge.kind", None),
+            ("parameters.body.link.colour", None),
+            ("parameters.joint.hinge", None),
+            ("parameters.body.link.position[1]", None),
+        ] {
+            let expected = near.map(|near| format!("did you mean `{near}`?"));
+            assert_eq!(nearest_field(field, None, &model), expected, "{field}");
+        }
+    }
 }

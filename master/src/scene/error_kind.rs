@@ -153,6 +153,16 @@ pub enum SceneErrorKind {
         /// The name.
         name: String,
     },
+    /// A key of a nested table with characters that names may not have.
+    #[error(
+        "`{section}` has a key {key:?}, which is not a name; a name has one or more of A-Z a-z 0-9 _ -"
+    )]
+    InvalidKey {
+        /// The table in which it stands.
+        section: String,
+        /// The key.
+        key: String,
+    },
     /// A name that is given twice.
     #[error("`{key}` = {name:?} is taken already by a {taken_by}{}", line.map(|l| format!(" in line {l}")).unwrap_or_default())]
     DuplicateName {

@@ -13,7 +13,7 @@ use super::nearest::nearest;
 use super::place::{Source, Spot};
 use super::written::{Entry, Node, Table, Value, Written};
 
-/// The longest key of a scene has four parts; a longer one is a mistake.
+/// The longest key of a scene has six parts, in a nested table of parameters; a longer one than this is a mistake.
 const MOST_PARTS: usize = 8;
 /// Tables that stand in a list, one for each `[[...]]`.
 const LISTS: [&str; 4] = ["subsystem", "joint", "connection", "case"];

@@ -187,8 +187,7 @@ impl<'w> Field<'w> {
     /// A name of letters, digits, `_` and `-`.
     pub(super) fn name(&self, problems: &mut Problems<'_>) -> Option<&'w str> {
         let name = self.text(problems)?;
-        let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
-        if !name.is_empty() && name.chars().all(allowed) {
+        if is_name(name) {
             return Some(name);
         }
         let kind = SceneErrorKind::InvalidName {
@@ -224,6 +223,12 @@ impl<'w> Field<'w> {
             _ => self.wrong_type("a table", problems),
         }
     }
+}
+
+/// Whether a text is one or more letters, digits, `_` and `-`.
+pub(super) fn is_name(text: &str) -> bool {
+    let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
+    !text.is_empty() && text.chars().all(allowed)
 }
 
 fn whole_range(least: usize, most: usize) -> String {
@@ -271,7 +276,7 @@ impl<'w> Section<'w> {
             .map(|(key, entry)| (key.as_str(), self.field(key, entry)))
     }
 
-    fn field(&self, key: &str, entry: &'w Entry) -> Field<'w> {
+    pub(super) fn field(&self, key: &str, entry: &'w Entry) -> Field<'w> {
         Field {
             key: self.key_of(key),
             node: &entry.node,
@@ -318,6 +323,14 @@ impl<'w> Section<'w> {
             section: self.title(),
             allowed: Names::from(allowed),
             nearest: nearest(key, allowed.iter().copied()),
+        };
+        problems.report(&entry.key_spot, kind);
+    }
+
+    pub(super) fn report_invalid_key(&self, key: &str, entry: &Entry, problems: &mut Problems<'_>) {
+        let kind = SceneErrorKind::InvalidKey {
+            section: self.title(),
+            key: key.to_owned(),
         };
         problems.report(&entry.key_spot, kind);
     }

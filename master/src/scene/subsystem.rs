@@ -6,7 +6,7 @@ use linchpin_proto::v1::{self, value::Kind};
 use tonic::transport::Uri;
 
 use super::error_kind::SceneErrorKind;
-use super::reader::{FINITE, Field, Problems, Section};
+use super::reader::{FINITE, Field, Problems, Section, is_name};
 use super::resolved::{Calls, Served, Subsystem};
 use super::written::Value;
 
@@ -23,6 +23,7 @@ const KEYS: [&str; 8] = [
 const CALLS: [(&str, Calls); 2] = [("automatic", Calls::Automatic), ("unary", Calls::Unary)];
 const VALUE: &str = "a number, a text, true or false, or a list of numbers";
 const VELOCITIES: &str = "a list of parameters such as [\"vx0\", \"vy0\"]";
+const FILLED_TABLE: &str = "a table with at least one key";
 const COMMAND: &str = "a list of texts, the program first";
 
 pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Subsystem> {
@@ -148,16 +149,82 @@ fn read_command(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<St
     Some(words.into_iter().map(str::to_owned).collect())
 }
 
+/// A table in the parameters stands for parameters with dotted names: `m` in `[subsystem.parameters.body.crank]` is
+/// `body.crank.m`.
 fn read_parameters(
     field: &Field<'_>,
     problems: &mut Problems<'_>,
 ) -> Option<BTreeMap<String, v1::Value>> {
-    let values: Vec<_> = field
-        .section(problems)?
-        .fields()
-        .map(|(key, field)| Some((key.to_owned(), read_value(&field, problems)?)))
-        .collect();
-    values.into_iter().collect()
+    let mut parameters = BTreeMap::new();
+    let section = field.section(problems)?;
+    read_parameter_table(&section, "", &mut parameters, problems).then_some(parameters)
+}
+
+/// Adds the parameters of a table whose dotted name is `prefix`; false if there is a mistake in it.
+fn read_parameter_table(
+    section: &Section<'_>,
+    prefix: &str,
+    parameters: &mut BTreeMap<String, v1::Value>,
+    problems: &mut Problems<'_>,
+) -> bool {
+    let mut is_sound = true;
+    for (key, entry) in section.table {
+        let field = section.field(key, entry);
+        let is_table = matches!(entry.node.value, Value::Table(_));
+        // A name of its own may be whatever the model calls its parameter; the parts of a dotted one may not.
+        if (is_table || !prefix.is_empty()) && !is_name(key) {
+            section.report_invalid_key(key, entry, problems);
+            is_sound = false;
+            continue;
+        }
+        let name = format!("{prefix}{key}");
+        is_sound &= if is_table {
+            read_inner_table(&field, &name, parameters, problems)
+        } else {
+            read_parameter(&field, name, parameters, problems)
+        };
+    }
+    is_sound
+}
+
+fn read_inner_table(
+    field: &Field<'_>,
+    name: &str,
+    parameters: &mut BTreeMap<String, v1::Value>,
+    problems: &mut Problems<'_>,
+) -> bool {
+    match field.section(problems) {
+        Some(section) if section.table.is_empty() => {
+            let empty: Option<()> = field.wrong_type(FILLED_TABLE, problems);
+            empty.is_some()
+        }
+        Some(section) => read_parameter_table(&section, &format!("{name}."), parameters, problems),
+        None => false,
+    }
+}
+
+fn read_parameter(
+    field: &Field<'_>,
+    name: String,
+    parameters: &mut BTreeMap<String, v1::Value>,
+    problems: &mut Problems<'_>,
+) -> bool {
+    let Some(value) = read_value(field, problems) else {
+        return false;
+    };
+    // A quoted name with dots at the top may be the same as one that tables spell.
+    if parameters.contains_key(&name) {
+        let kind = SceneErrorKind::DuplicateName {
+            key: field.key.clone(),
+            name,
+            taken_by: "parameter",
+            line: None,
+        };
+        field.report(kind, problems);
+        return false;
+    }
+    parameters.insert(name, value);
+    true
 }
 
 fn read_solver(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<v1::Solver> {

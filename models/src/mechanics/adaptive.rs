@@ -72,7 +72,8 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
     }
 }
 
-fn at(interval: Interval, error: IntegrationError) -> StepFailure {
+/// A failure of the integrator at its time in the scene.
+pub fn at(interval: Interval, error: IntegrationError) -> StepFailure {
     StepFailure::Recoverable {
         t: interval.start + error.tau,
         message: error.to_string(),

@@ -39,18 +39,7 @@ impl<E: EquationOfMotion> Solver<E> for Fixed {
         interval: Interval,
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
-        let parts = (interval.length / self.step - ROUNDING).ceil().max(1.0);
-        if parts > MOST_PARTS {
-            return Err(StepFailure::Recoverable {
-                t: interval.start,
-                message: format!(
-                    "a macro step of {} s has more than {MOST_PARTS} internal steps of {} s; \
-                     raise solver.step or shorten the macro step",
-                    interval.length, self.step
-                ),
-            });
-        }
-        let parts = parts as u64;
+        let parts = parts(interval, self.step)?;
         self.rk4
             .integrate(ode, interval.length, parts, state.as_mut());
         self.steps += parts;
@@ -60,4 +49,23 @@ impl<E: EquationOfMotion> Solver<E> for Fixed {
     fn internal_steps(&self) -> u64 {
         self.steps
     }
+}
+
+/// Number of equal parts, not longer than `step`, of a macro step.
+///
+/// # Errors
+/// A recoverable [`StepFailure`] if there are too many.
+pub fn parts(interval: Interval, step: f64) -> Result<u64, StepFailure> {
+    let parts = (interval.length / step - ROUNDING).ceil().max(1.0);
+    if parts > MOST_PARTS {
+        return Err(StepFailure::Recoverable {
+            t: interval.start,
+            message: format!(
+                "a macro step of {} s has more than {MOST_PARTS} internal steps of {step} s; \
+                 raise solver.step or shorten the macro step",
+                interval.length
+            ),
+        });
+    }
+    Ok(parts as u64)
 }

@@ -63,10 +63,37 @@ pub fn capabilities() -> v1::Capabilities {
     }
 }
 
-/// The subsystem that moves by `equation` from `start`, advanced by the solver of `setup`.
+/// A solver with its options.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Choice {
+    /// `radau5`.
+    Adaptive(Tolerances),
+    /// `rk4` with its longest internal step (s).
+    Fixed(f64),
+}
+
+/// The solver of `setup`.
 ///
 /// # Errors
 /// [`SetupError`] if an option is out of its range or the solver is none of [`descriptions`].
+pub fn choose(setup: &Setup) -> Result<Choice, SetupError> {
+    match setup.solver() {
+        RADAU5 => Ok(Choice::Adaptive(Tolerances {
+            relative: setup.positive_option("rtol")?,
+            absolute: setup.positive_option("atol")?,
+        })),
+        RK4 => setup.positive_option("step").map(Choice::Fixed),
+        other => Err(SetupError::UnknownSolver {
+            kind: other.to_owned(),
+            known: [RADAU5, RK4].join(", "),
+        }),
+    }
+}
+
+/// The subsystem that moves by `equation` from `start`, advanced by the solver of `setup`.
+///
+/// # Errors
+/// As [`choose`].
 pub fn start<E: EquationOfMotion + 'static>(
     equation: E,
     start: E::State,
@@ -77,22 +104,14 @@ where
 {
     let dimension = E::STATE_NAMES.len();
     let joint_loads = JointLoads::of(setup);
-    match setup.solver() {
-        RADAU5 => {
-            let tolerances = Tolerances {
-                relative: setup.positive_option("rtol")?,
-                absolute: setup.positive_option("atol")?,
-            };
+    Ok(match choose(setup)? {
+        Choice::Adaptive(tolerances) => {
             let adaptive = Adaptive::new(dimension, tolerances);
-            Ok(Box::new(Run::new(equation, joint_loads, start, adaptive)))
+            Box::new(Run::new(equation, joint_loads, start, adaptive))
         }
-        RK4 => {
-            let fixed = Fixed::new(dimension, setup.positive_option("step")?);
-            Ok(Box::new(Run::new(equation, joint_loads, start, fixed)))
+        Choice::Fixed(step) => {
+            let fixed = Fixed::new(dimension, step);
+            Box::new(Run::new(equation, joint_loads, start, fixed))
         }
-        other => Err(SetupError::UnknownSolver {
-            kind: other.to_owned(),
-            known: [RADAU5, RK4].join(", "),
-        }),
-    }
+    })
 }

@@ -1,10 +1,15 @@
 //! Any model, with its variables by name.
 
+use std::collections::BTreeMap;
+
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1;
 use linchpin_worker::{Inputs, Model, Subsystem};
 
-use super::{Solver, build_model, interval};
+use super::mechanisms::{
+    Composition, Given, PLANAR_TREE, SHAKEN_CRANK, SLIDER_CRANK, SPATIAL_LOOP, SPATIAL_TREE, values,
+};
+use super::{Solver, build_values, interval, numbers};
 
 /// Far more accurate than what is checked.
 pub const TIGHT: Solver = Solver("radau5", &[("rtol", 1e-12), ("atol", 1e-12)]);
@@ -14,11 +19,43 @@ pub const TIGHT: Solver = Solver("radau5", &[("rtol", 1e-12), ("atol", 1e-12)]);
 pub struct Case {
     pub model: &'static str,
     pub parameters: &'static [(&'static str, f64)],
+    /// Parameters of multibody models.
+    pub composition: Composition,
+    /// Whether the multibody model has minimal coordinates.
+    pub is_minimal: bool,
     pub load: f64,
 }
 
-/// One case of every model.
-pub const CASES: [Case; 4] = [
+impl Case {
+    /// A multibody system.
+    pub const fn composed(model: &'static str, composition: Composition, is_minimal: bool) -> Self {
+        Self {
+            model,
+            parameters: &[],
+            composition,
+            is_minimal,
+            load: 7.0,
+        }
+    }
+
+    /// All parameters.
+    pub fn values(&self) -> BTreeMap<String, v1::Value> {
+        let mut all = numbers(self.parameters);
+        all.extend(values(self.composition));
+        if self.is_minimal {
+            all.extend(values(&[("formulation", Given::Text("minimal"))]));
+        }
+        all
+    }
+
+    /// The model with these parameters.
+    pub fn description(&self) -> v1::Model {
+        model(self.model).describe_with(&self.values()).unwrap()
+    }
+}
+
+/// At least one case of every model.
+pub const CASES: [Case; 10] = [
     Case {
         model: "oscillator",
         parameters: &[
@@ -28,6 +65,8 @@ pub const CASES: [Case; 4] = [
             ("x0", 0.02),
             ("v0", 100.0),
         ],
+        composition: &[],
+        is_minimal: false,
         load: 333.0,
     },
     Case {
@@ -45,6 +84,8 @@ pub const CASES: [Case; 4] = [
             ("angle0", 1.1),
             ("rate0", -4.0),
         ],
+        composition: &[],
+        is_minimal: false,
         load: 7.0,
     },
     Case {
@@ -61,6 +102,8 @@ pub const CASES: [Case; 4] = [
             ("vy0", 0.9),
             ("rate0", -4.0),
         ],
+        composition: &[],
+        is_minimal: false,
         load: 7.0,
     },
     Case {
@@ -90,8 +133,22 @@ pub const CASES: [Case; 4] = [
             ("omega2_0", -3.0),
             ("omega3_0", 1.5),
         ],
+        composition: &[],
+        is_minimal: false,
         load: 7.0,
     },
+    Case::composed("planar-multibody", SLIDER_CRANK, false),
+    Case::composed("planar-multibody", PLANAR_TREE, false),
+    Case::composed("planar-multibody", PLANAR_TREE, true),
+    Case::composed("spatial-multibody", SPATIAL_LOOP, false),
+    Case::composed("spatial-multibody", SPATIAL_TREE, false),
+    Case::composed("spatial-multibody", SPATIAL_TREE, true),
+];
+
+/// Systems with prescribed motion, which changes their energy.
+pub const SHAKEN: [Case; 2] = [
+    Case::composed("planar-multibody", SHAKEN_CRANK, false),
+    Case::composed("planar-multibody", SHAKEN_CRANK, true),
 ];
 
 /// All built-in models by name.
@@ -120,12 +177,20 @@ pub struct Body {
 
 impl Body {
     pub fn new(name: &str, parameters: &[(&str, f64)], solver: Solver) -> Self {
+        Self::with_values(name, numbers(parameters), solver)
+    }
+
+    pub fn with_values(
+        name: &str,
+        parameters: BTreeMap<String, v1::Value>,
+        solver: Solver,
+    ) -> Self {
         let model = model(name);
-        let run = build_model(&*model, parameters, solver).unwrap();
-        let model = model.describe();
-        let inputs = Inputs::constant(&vec![0.0; model.inputs.len()]);
+        let description = model.describe_with(&parameters).unwrap();
+        let run = build_values(&*model, parameters, solver).unwrap();
+        let inputs = Inputs::constant(&vec![0.0; description.inputs.len()]);
         Self {
-            model,
+            model: description,
             run,
             t: 0.0,
             inputs,
@@ -133,16 +198,14 @@ impl Body {
     }
 
     pub fn of(case: Case, solver: Solver) -> Self {
-        Self::new(case.model, case.parameters, solver)
+        Self::with_values(case.model, case.values(), solver)
     }
 
     /// The case with other values of some parameters.
     pub fn altered(case: Case, parameters: &[(&str, f64)], solver: Solver) -> Self {
-        let is_altered = |name: &str| parameters.iter().any(|(other, _)| *other == name);
-        let own = case.parameters.iter().copied();
-        let mut all: Vec<_> = own.filter(|(name, _)| !is_altered(name)).collect();
-        all.extend(parameters);
-        Self::new(case.model, &all, solver)
+        let mut all = case.values();
+        all.extend(numbers(parameters));
+        Self::with_values(case.model, all, solver)
     }
 
     /// A constant input.

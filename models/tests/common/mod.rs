@@ -2,12 +2,15 @@
 
 #![allow(dead_code, reason = "every test program uses a part of this")]
 
+use std::collections::BTreeMap;
+
 use linchpin_models::oscillator::Oscillator;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1;
 use linchpin_worker::{Inputs, Interval, Model, Setup, Snapshot, Subsystem, setup::SetupError};
 
 pub mod body;
+pub mod mechanisms;
 pub mod motion;
 pub mod spatial;
 
@@ -39,16 +42,30 @@ pub fn build_model(
     parameters: &[(&str, f64)],
     solver: Solver,
 ) -> Result<Box<dyn Subsystem>, SetupError> {
-    let options = solver
-        .1
-        .iter()
-        .map(|&(name, value)| (name.to_owned(), number(value)));
+    build_values(model, numbers(parameters), solver)
+}
+
+/// Values of any type.
+pub fn build_values(
+    model: &dyn Model,
+    parameters: BTreeMap<String, v1::Value>,
+    solver: Solver,
+) -> Result<Box<dyn Subsystem>, SetupError> {
+    let description = model.describe_with(&parameters)?;
     let solver = v1::Solver {
         kind: solver.0.to_owned(),
-        options: options.collect(),
+        options: numbers(solver.1),
     };
-    let setup = Setup::new(&model.describe(), parameters, Some(solver), 0.0)?;
+    let setup = Setup::from_request(&description, parameters, Some(solver), 0.0)?;
     model.initialize(&setup)
+}
+
+/// Numbers as a request has them.
+pub fn numbers(pairs: &[(&str, f64)]) -> BTreeMap<String, v1::Value> {
+    let pairs = pairs.iter();
+    pairs
+        .map(|&(name, value)| (name.to_owned(), number(value)))
+        .collect()
 }
 
 pub fn oscillator(parameters: &[(&str, f64)], solver: Solver) -> Box<dyn Subsystem> {

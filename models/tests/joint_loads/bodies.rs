@@ -3,7 +3,7 @@
 use linchpin_proto::v1;
 
 use crate::common::Solver;
-use crate::common::body::{CASES, Case, TIGHT, model};
+use crate::common::body::{CASES, Case, TIGHT};
 use crate::joint::Space;
 
 /// A model with its markers.
@@ -32,14 +32,40 @@ pub const SPATIAL: Body = Body {
     markers: &["start", "end"],
 };
 
-pub const BODIES: [Body; 3] = [PENDULUM, LINK, SPATIAL];
+/// Multibody systems, with their markers that move.
+pub const SYSTEMS: [Body; 4] = [
+    Body {
+        case: CASES[4],
+        space: Space::Planar,
+        markers: &["tip"],
+    },
+    Body {
+        case: CASES[6],
+        space: Space::Planar,
+        markers: &["tip", "ball"],
+    },
+    Body {
+        case: CASES[7],
+        space: Space::Spatial,
+        markers: &["tip"],
+    },
+    Body {
+        case: CASES[9],
+        space: Space::Spatial,
+        markers: &["tip", "block"],
+    },
+];
+
+pub const BODIES: [Body; 7] = [
+    PENDULUM, LINK, SPATIAL, SYSTEMS[0], SYSTEMS[1], SYSTEMS[2], SYSTEMS[3],
+];
 
 /// Solvers whose error is below what is checked.
 pub const SOLVERS: [Solver; 2] = [TIGHT, Solver("rk4", &[("step", 2.5e-4)])];
 
 impl Body {
     pub fn description(&self) -> v1::Model {
-        model(self.case.model).describe()
+        self.case.description()
     }
 
     pub fn outputs(&self) -> Vec<String> {

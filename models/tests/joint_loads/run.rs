@@ -38,7 +38,7 @@ impl Run {
                 .map(|&(name, value)| (name.to_owned(), number(value)))
                 .collect()
         };
-        let mut all = table(case.parameters);
+        let mut all = case.values();
         all.extend(table(parameters));
         let host = Host::new(linchpin_models::models());
         let request = v1::InitializeRequest {

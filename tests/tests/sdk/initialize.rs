@@ -37,7 +37,9 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             "oscillator",
             "pendulum",
             "planar-body",
+            "planar-multibody",
             "spatial-body",
+            "spatial-multibody",
             "stand",
             "tank"
         ]

@@ -104,6 +104,79 @@ fn wrong_types_tell_what_was_found() {
     );
 }
 
+const PARAMETERS: &str = "parameters = { m = 1.0, c = 1000.0, d = 10.0, x0 = 0.0, v0 = 100.0 }";
+
+/// Asserts a mistake in the parameters of the first subsystem, in the line of `at`.
+fn assert_parameter_mistake(parameters: &str, at: &str, words: &[&str]) {
+    let table = format!("parameters = {{ {parameters} }}");
+    assert_mistake(&[(PARAMETERS, &table)], at, words);
+}
+
+#[test]
+fn nested_parameters_keep_the_place_of_a_mistake() {
+    let with_table =
+        |table: &str| format!("[subsystem.parameters.body.crank]\n{table}\n[[subsystem]]");
+    let second = "[[subsystem]]\nname = \"mass2\"";
+    assert_mistake(
+        &[
+            (PARAMETERS, ""),
+            (
+                second,
+                &format!(
+                    "{}\nname = \"mass2\"",
+                    with_table("m = 1.0\nposition = [0, nan]")
+                ),
+            ),
+        ],
+        "position =",
+        &["mass1.parameters.body.crank.position[1]", "finite", "NaN"],
+    );
+    assert_parameter_mistake(
+        "body.crank.m = 1979-05-27",
+        "body.crank",
+        &["mass1.parameters.body.crank.m", "1979-05-27"],
+    );
+}
+
+#[test]
+fn names_in_nested_parameters_have_letters_digits_and_two_signs() {
+    for (parameters, words) in [
+        (
+            "body.\"my crank\".m = 1",
+            ["`subsystem.mass1.parameters.body`", "\"my crank\""],
+        ),
+        (
+            "body.crank.\"m.1\" = 1",
+            ["`subsystem.mass1.parameters.body.crank`", "\"m.1\""],
+        ),
+        (
+            "\"b.c\" = { m = 1 }",
+            ["`subsystem.mass1.parameters`", "\"b.c\""],
+        ),
+        (
+            "body.\"\".m = 1",
+            ["`subsystem.mass1.parameters.body`", "\"\""],
+        ),
+    ] {
+        let words = [words[0], words[1], "A-Z a-z 0-9 _ -"];
+        assert_parameter_mistake(parameters, "parameters = {", &words);
+    }
+}
+
+#[test]
+fn nested_parameters_are_neither_empty_nor_given_twice() {
+    assert_parameter_mistake(
+        "joint.hinge = {}",
+        "parameters = {",
+        &["mass1.parameters.joint.hinge", "at least one key"],
+    );
+    assert_parameter_mistake(
+        "\"a.b\" = 1, a.b = 2",
+        "parameters = {",
+        &["\"a.b\"", "taken already by a parameter"],
+    );
+}
+
 #[test]
 fn numbers_out_of_range_tell_the_range() {
     assert_mistake(

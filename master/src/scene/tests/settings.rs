@@ -275,3 +275,28 @@ y = { key = 'coupling.degree', values = [0, 1, 2] }
     assert_eq!(changed(&map.x, map.x.values[1]).macro_step, map.x.values[1]);
     assert_eq!(changed(&map.y, 2.0).degree, 2);
 }
+
+#[test]
+fn nested_parameters_have_dotted_names() {
+    let flat = "parameters = { m = 1.0, c = 1000.0, d = 10.0, x0 = 0.0, v0 = 100.0 }";
+    let nested = "parameters = { m = 1.0, \"der(x).1\" = 2, body.crank = { m = 3, position = [0.5, 0] }, joint.hinge-1.kind = \"revolute\" }";
+    let scene = scene(&[(flat, nested)]);
+    let parameters = &scene.subsystems[0].parameters;
+    let names: Vec<_> = parameters.keys().map(String::as_str).collect();
+    let expected = [
+        "body.crank.m",
+        "body.crank.position",
+        "der(x).1",
+        "joint.hinge-1.kind",
+        "m",
+    ];
+    assert_eq!(names, expected);
+    assert_eq!(parameters["body.crank.m"], number(3.0));
+    let kind = Some(Kind::Text("revolute".into()));
+    assert_eq!(parameters["joint.hinge-1.kind"].kind, kind);
+    let place = scene.place("subsystem.mass1.parameters.body.crank.m");
+    assert_eq!(
+        place.unwrap().line,
+        scene.place("subsystem.mass1.parameters.m").unwrap().line
+    );
+}
