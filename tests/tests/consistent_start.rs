@@ -203,3 +203,20 @@ fn who_evaluates_a_load_must_be_able_to() {
         .to_string();
     assert_told(&errors, &["exchanged_degree", "0 to 3"]);
 }
+
+/// The same hinge twice: four conditions for two freedoms.
+#[test]
+fn redundant_joints_are_named() {
+    let second = "[[joint]]\nname = \"again\"\nkind = \"atpoint\"\na = \"link1.tip\"\nb = \"link2.start\"\n\n[output]";
+    let text = DOUBLE_PENDULUM.replace("[output]", second);
+    let scene = parse(&text, "double-pendulum.toml", &[]).unwrap();
+    let message = refusal(&scene);
+    assert_told(
+        &message,
+        &[
+            "again.lambda.x",
+            "another joint demands the same already",
+            "remove the redundant joint",
+        ],
+    );
+}
