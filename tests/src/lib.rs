@@ -7,6 +7,7 @@
 pub mod convergence;
 pub mod errors;
 pub mod golden;
+pub mod in_space;
 pub mod masses;
 pub mod process;
 pub mod runs;

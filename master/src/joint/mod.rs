@@ -158,7 +158,8 @@ impl Joint {
         })
     }
 
-    /// Axes of markers a and b that have to point to the same side: the conditions hold for the opposite side as well.
+    /// Axes of markers a and b that have to point to the same side: the conditions also hold where they point to opposite
+    /// sides, and those that keep an attitude also a third of a turn away from it, where they are at right angles.
     pub fn aligned(&self) -> &[[Vector3<f64>; 2]] {
         &self.aligned
     }
