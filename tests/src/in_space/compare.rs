@@ -1,8 +1,8 @@
 //! Motions of the bodies in a run, and how far they are from those of a reference.
 
 use linchpin_master::joint::{End, Joint};
-use linchpin_models::reference::{BodyMotion, JointReaction};
-use linchpin_proto::joint_load::{Pose, Wrench};
+use linchpin_models::reference::{BodyMotion, SpatialChainMotion};
+use linchpin_proto::joint_load::Pose;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::runs::Trajectory;
@@ -48,25 +48,54 @@ pub fn pose_errors<'a>(
     largest
 }
 
-/// What the joint does to the body at end a by its multipliers: force, and moment about the marker; `markers` are the
-/// poses of the markers at ends a and b.
-pub fn wrench(joint: &Joint, multipliers: &[f64], markers: &[Pose; 2]) -> Wrench {
-    let mut sum = Wrench {
-        force: Vector3::zeros(),
-        moment: Vector3::zeros(),
-    };
-    for (condition, lambda) in joint.conditions().zip(multipliers) {
-        let law = condition.law().unwrap();
-        let unit = law.unit_wrench(End::A, markers);
-        sum.force += *lambda * unit.force;
-        sum.moment += *lambda * unit.moment;
-    }
-    sum
+/// A joint between two bodies of a reference, and its multipliers in a run.
+pub struct Loaded<'a> {
+    /// Name in the scene.
+    pub name: &'a str,
+    /// Its conditions.
+    pub joint: &'a Joint,
+    /// Markers at ends a and b: number of the body in the reference, place in the body (m).
+    pub markers: [(usize, Vector3<f64>); 2],
 }
 
-/// Distance of a load, force and moment about `at`, from that of the reference on the same body (N, and N m about the
-/// joint's point).
-pub fn load_error(found: &Wrench, at: &Vector3<f64>, exact: &JointReaction) -> f64 {
-    let moment = found.moment + (at - exact.point).cross(&found.force);
-    (found.force - exact.force).norm() + (moment - exact.moment).norm()
+impl Loaded<'_> {
+    /// Largest distance between the joint's load on the body at end a and that of the reference (N, N m), after the first
+    /// tenth of the time, in which the degree of the multipliers grows.
+    pub fn load_error(&self, trajectory: &Trajectory, exact: &[SpatialChainMotion]) -> f64 {
+        let names = (0..self.joint.len()).map(|row| match self.joint.name(row) {
+            "" => format!("{}.lambda", self.name),
+            end => format!("{}.lambda.{end}", self.name),
+        });
+        let multipliers: Vec<_> = names.map(|name| trajectory.column(&name)).collect();
+        let late = exact.len() / 10..exact.len();
+        let errors = late.map(|row| {
+            let lambda = multipliers.iter().map(|column| column[row]);
+            self.error_at(lambda, &exact[row])
+        });
+        errors.fold(0.0, f64::max)
+    }
+
+    fn error_at(&self, lambda: impl Iterator<Item = f64>, exact: &SpatialChainMotion) -> f64 {
+        let markers = self
+            .markers
+            .map(|(body, marker)| pose(&exact.bodies[body], &marker));
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for (condition, lambda) in self.joint.conditions().zip(lambda) {
+            let law = condition.law().unwrap();
+            let unit = law.unit_wrench(End::A, &markers);
+            force += lambda * unit.force;
+            moment += lambda * unit.moment;
+        }
+        let exact = &exact.reactions[self.markers[0].0];
+        let moment = moment + (markers[0].position - exact.point).cross(&force);
+        (force - exact.force).norm() + (moment - exact.moment).norm()
+    }
+}
+
+fn pose(body: &BodyMotion, marker: &Vector3<f64>) -> Pose {
+    let attitude = UnitQuaternion::from_quaternion(body.attitude);
+    Pose {
+        position: body.position + attitude * marker,
+        rotation: attitude.to_rotation_matrix().into_inner(),
+    }
 }

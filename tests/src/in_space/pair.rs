@@ -8,10 +8,9 @@ use linchpin_models::reference::{
     BodyMotion, CompositeJoint, JointedBody, RigidBody, SpatialChain, SpatialChainMotion,
     SpatialJoint,
 };
-use linchpin_proto::joint_load::Pose;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::compare::{load_error, motions, pose_errors, wrench};
+use super::compare::{Loaded, motions, pose_errors};
 use super::{joints, text, tumbling};
 use crate::convergence::slope_of;
 use crate::runs::Trajectory;
@@ -181,19 +180,12 @@ impl Pair {
 
     fn load_error(&self, trajectory: &Trajectory, exact: &[SpatialChainMotion]) -> f64 {
         let joint = in_space(joints::kind(&self.joint), &self.frame()).unwrap();
-        let multipliers: Vec<_> = columns(trajectory, "joint.lambda")
-            .map(|name| trajectory.column(name))
-            .collect();
-        assert_eq!(multipliers.len(), joint.len());
-        let late = exact.len() / 10..exact.len();
-        let errors = late.map(|row| {
-            let bodies = &exact[row].bodies;
-            let markers = [pose(&bodies[1], &MARKERS[0]), pose(&bodies[0], &MARKERS[1])];
-            let lambda: Vec<f64> = multipliers.iter().map(|column| column[row]).collect();
-            let found = wrench(&joint, &lambda, &markers);
-            load_error(&found, &markers[0].position, &exact[row].reactions[1])
-        });
-        errors.fold(0.0, f64::max)
+        let loaded = Loaded {
+            name: "joint",
+            joint: &joint,
+            markers: [(1, MARKERS[0]), (0, MARKERS[1])],
+        };
+        loaded.load_error(trajectory, exact)
     }
 }
 
@@ -212,20 +204,9 @@ impl PairErrors {
     }
 }
 
-fn pose(body: &BodyMotion, marker: &Vector3<f64>) -> Pose {
-    let attitude = UnitQuaternion::from_quaternion(body.attitude);
-    Pose {
-        position: body.position + attitude * marker,
-        rotation: attitude.to_rotation_matrix().into_inner(),
-    }
-}
-
-fn columns<'a>(trajectory: &'a Trajectory, start: &'a str) -> impl Iterator<Item = &'a String> {
-    let names = trajectory.columns.iter();
-    names.filter(move |name| name.starts_with(start))
-}
-
 fn largest_of(trajectory: &Trajectory, start: &str) -> f64 {
-    let values = columns(trajectory, start).flat_map(|name| trajectory.column(name));
+    let names = trajectory.columns.iter();
+    let names = names.filter(|name| name.starts_with(start));
+    let values = names.flat_map(|name| trajectory.column(name));
     values.map(f64::abs).fold(0.0, f64::max)
 }
