@@ -135,18 +135,21 @@ fn largest_difference(found: &[f64], exact: impl ExactSizeIterator<Item = f64>) 
     differences.fold(0.0, f64::max)
 }
 
-/// Couplings with the least orders of angles, pose, load, energy.
-const COUPLINGS: [(&str, [f64; 4]); 3] = [
-    ("degree=1 exchanged_degree=2", [3.0, 3.0, 2.0, 3.0]),
-    ("degree=2 exchanged_degree=3", [3.0, 3.0, 3.0, 3.0]),
+/// A coupling, the least orders of angles, pose, load, energy, and the smallest macro step of three. With k = 2 the
+/// multipliers fall to the noise of the solvers, divided by H^2, at once.
+const COUPLINGS: [(&str, [f64; 4], f64); 3] = [
+    ("degree=1 exchanged_degree=2", [3.0, 3.0, 2.0, 3.0], 5e-4),
+    ("degree=2 exchanged_degree=3", [3.0, 3.0, 3.0, 3.0], 1e-3),
     (
         "index=2 b=0 degree=0 exchanged_degree=2",
         [3.0, 3.0, 1.0, 3.0],
+        5e-4,
     ),
 ];
 
-fn assert_orders(mechanism: &Mechanism, steps: [f64; 3]) {
-    for (coupling, least) in COUPLINGS {
+fn assert_orders(mechanism: &Mechanism) {
+    for (coupling, least, smallest) in COUPLINGS {
+        let steps = [4.0 * smallest, 2.0 * smallest, smallest];
         let errors = steps.map(|h| {
             let scene = mechanism.scene(coupling, h);
             mechanism.errors(&run(&scene, Place::InProcess))
@@ -167,17 +170,17 @@ fn assert_orders(mechanism: &Mechanism, steps: [f64; 3]) {
 
 #[test]
 fn orders_of_a_double_pendulum_with_a_universal_joint() {
-    assert_orders(&universal_pendulum(), [8e-3, 4e-3, 2e-3]);
+    assert_orders(&universal_pendulum());
 }
 
 #[test]
 fn orders_of_a_double_pendulum_with_a_tilted_hinge() {
-    assert_orders(&revolute_pendulum(), [8e-3, 4e-3, 2e-3]);
+    assert_orders(&revolute_pendulum());
 }
 
 #[test]
 fn orders_of_a_top_in_a_gimbal() {
-    assert_orders(&gimbal(), [4e-3, 2e-3, 1e-3]);
+    assert_orders(&gimbal());
 }
 
 #[test]

@@ -54,6 +54,10 @@ impl Level {
     }
 }
 
+/// Motion below this (m, rad, and per s) is no measure of an opening: a joint may rest in the origin, and then its
+/// positions and velocities are nothing but rounding.
+pub const LEAST_MOTION: f64 = 1e-3;
+
 /// One scalar condition `g = u . w` of two vectors that the markers determine, on every level.
 pub trait Condition: Send + Sync {
     /// The law of the load; `None` for the link between scalar markers, whose load is `+lambda` on a, `-lambda` on b.
@@ -82,7 +86,7 @@ pub trait Condition: Send + Sync {
     }
 
     /// Size of the terms that cancel in [`Condition::value`] while the condition holds, for judging what is rounding:
-    /// lengths and rates of positions; of axes 1 and rates of turning.
+    /// lengths and rates of positions; of axes 1 and rates of turning. At least [`LEAST_MOTION`].
     fn extent(&self, level: Level, motion: &Motion) -> f64 {
         let arms = self
             .law()
@@ -104,7 +108,7 @@ pub trait Condition: Send + Sync {
                 turning
             }
         });
-        sizes.fold(0.0, f64::max)
+        sizes.fold(LEAST_MOTION, f64::max)
     }
 
     /// Whether `g` is a length (m); otherwise it is a number.

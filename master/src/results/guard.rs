@@ -2,6 +2,7 @@
 
 use crate::coupling::layout::{self, Layout};
 use crate::error::RunError;
+use crate::joint::LEAST_MOTION;
 use crate::results::Row;
 use crate::time::MacroStep;
 
@@ -30,7 +31,7 @@ impl Guard {
         Self {
             most_opening: MOST_OPENING,
             most_growth: MOST_GROWTH,
-            largest_motion: 0.0,
+            largest_motion: LEAST_MOTION,
             steps: 0,
             first_sizes: Vec::new(),
         }
