@@ -28,7 +28,7 @@ pub(super) fn check(scene: &Scene, layout: &Layout, outputs: &[Vec<f64>]) -> Res
                  same side",
                 scene.t_start
             );
-            let help = "turn one of the bodies, or change the axes or the attitude of the joint";
+            let help = "turn one of the bodies, reverse an axis of the joint, or change the attitude that it keeps";
             let key = format!("joint.{}", joint.name);
             return Err(scene.error(&key, message, Some(help.into())).into());
         }
