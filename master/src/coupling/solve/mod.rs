@@ -30,28 +30,26 @@ pub struct SingularColumn(pub usize);
 /// A pivot below this share of the largest entry of its column is rounding.
 const PIVOT_ROUNDING: f64 = 1e-14;
 
-/// Below this number of variables the dense elimination is the faster one even for a chain (bench `chain`).
-const FEWEST_SPARSE: usize = 16;
-
-/// One multiplication of the sparse elimination takes as long as so many of the dense one (bench `chain`).
-const COST_OF_SPARSE: usize = 8;
+/// One multiplication of the sparse elimination takes as long as so many of the dense one: measured 8 for small systems and up
+/// to 30 for large ones with full factors (bench `chain`).
+const COST_OF_SPARSE: usize = 20;
 
 impl LinearSolver {
-    /// A solver for matrices of a pattern: sparse if there are enough variables and the factors stay sparse enough for it
-    /// to be the faster one.
+    /// The solver for matrices of a pattern that is likely to be the faster one, from the number of multiplications: for a
+    /// chain of planar hinges the sparse one from about 15 bodies on, for bodies that all meet in one the dense one for
+    /// any number.
     pub fn new(pattern: &Pattern) -> Self {
-        let size = pattern.size();
-        if size >= FEWEST_SPARSE {
-            let mut sparse = Sparse::new(pattern);
-            let dense = size.pow(3) / 3;
-            let multiplications = sparse.multiplications(pattern);
-            if multiplications.is_some_and(|sparse| sparse * COST_OF_SPARSE < dense) {
-                return Self {
+        let mut sparse = Sparse::new(pattern);
+        match sparse.multiplications(pattern) {
+            Some(multiplications)
+                if COST_OF_SPARSE * multiplications < pattern.size().pow(3) / 3 =>
+            {
+                Self {
                     elimination: Elimination::Sparse(Box::new(sparse)),
-                };
+                }
             }
+            _ => Self::dense(pattern),
         }
-        Self::dense(pattern)
     }
 
     /// A solver that treats the matrix as full: about n^3 / 3 multiplications for each solution.
