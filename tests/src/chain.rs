@@ -1,7 +1,5 @@
 //! The hanging chain: `scenes/chain` and its monolithic counterpart.
 
-use std::fmt::Write;
-
 use linchpin_models::reference::{Chain, GroundHinge, Link};
 
 const LINK: Link = Link {
@@ -50,11 +48,31 @@ pub fn scene_text(links: usize) -> String {
             "\n[[joint]]\nname = \"hinge{hinge}\"\nkind = \"atpoint\"\na = \"link{hinge}.{end}\"\nb = \"link{next}.start\"\n"
         );
     }
-    text += "\n[output]\nvariables = [\n";
+    text + &output(links)
+}
+
+/// Angles and energies; the picture shows a few of the links, and that the energy of all of them stays.
+fn output(links: usize) -> String {
+    let mut text = "\n[output]\nvariables = [\n".to_owned();
     for number in 1..=links {
-        writeln!(text, "  \"link{number}.angle\", \"link{number}.energy\",").unwrap();
+        text += &format!("  \"link{number}.angle\", \"link{number}.energy\",\n");
     }
-    text += "]\n";
+    let mut shown = vec![1, links / 2, links];
+    shown.retain(|&link| link > 0);
+    shown.dedup();
+    let angles: Vec<_> = shown
+        .iter()
+        .map(|link| format!("\"link{link}.angle\""))
+        .collect();
+    let energies: Vec<_> = (1..=links)
+        .map(|link| format!("link{link}.energy"))
+        .collect();
+    text += &format!(
+        "]\n\n[[output.panel]]\nlabel = \"angle in rad\"\ncolumns = [{}]\n\n\
+         [[output.panel]]\nlabel = \"energy in J\"\ncolumns = [\"{}\"]\n",
+        angles.join(", "),
+        energies.join(" + ")
+    );
     text
 }
 
