@@ -87,7 +87,7 @@ fn busy() -> f64 {
 fn measure(links: usize, place: Place) -> Cost {
     let mut running = Running::start(links, place, &["scene.t_end=1e3"]);
     running.steps(WARM_UP);
-    let blocks = (0..BLOCKS).map(|_| running.block(2048 / links));
+    let blocks = (0..BLOCKS).map(|_| running.block(512 / links));
     let least = |one: Cost, other: Cost| Cost {
         links,
         exchanges: one.exchanges.max(other.exchanges),

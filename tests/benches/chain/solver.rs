@@ -38,7 +38,7 @@ fn values(pattern: &Pattern) -> Vec<f64> {
 fn time(mut solver: LinearSolver, pattern: &Pattern) -> f64 {
     let values = values(pattern);
     let mut rhs = vec![1.0; pattern.size()];
-    let turns = (20_000 / pattern.size()).max(10);
+    let turns = (4_000 / pattern.size()).max(4);
     least_time(turns, || {
         rhs.fill(1.0);
         solver.solve(pattern, &values, &mut rhs).unwrap();

@@ -36,7 +36,7 @@ const COST_OF_SPARSE: usize = 20;
 
 impl LinearSolver {
     /// The solver for matrices of a pattern that is likely to be the faster one, from the number of multiplications: for a
-    /// chain of planar hinges the sparse one from about 15 bodies on, for bodies that all meet in one the dense one for
+    /// chain of planar hinges the sparse one from about 20 bodies on, for bodies that all meet in one the dense one for
     /// any number.
     pub fn new(pattern: &Pattern) -> Self {
         let mut sparse = Sparse::new(pattern);
