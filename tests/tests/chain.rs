@@ -10,7 +10,7 @@ use linchpin_master::scene::Scene;
 use linchpin_models::reference::LinkMotion;
 use linchpin_tests::chain::{reference, scene_text};
 use linchpin_tests::hinges;
-use linchpin_tests::runs::run;
+use linchpin_tests::runs::{run, try_run};
 use linchpin_tests::scenes::with_settings;
 
 const TIGHT: &str = "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-11, atol = 1e-11 }";
@@ -30,7 +30,7 @@ fn the_scenes_of_users_are_those_of_the_tests() {
     }
 }
 
-/// The last ones have a sparse coupling system.
+/// The last one has a sparse coupling system.
 #[test]
 fn angles_and_forces_are_those_of_the_monolithic_chain() {
     for (n, t_end) in [(2, 0.3), (3, 0.3), (5, 0.3), (8, 0.3), (24, 0.1)] {
@@ -126,4 +126,16 @@ fn the_system_is_sparse_where_few_bodies_meet() {
     assert!(is_sparse(&hinges::tree(64)));
     assert!(!is_sparse(&hinges::star(64)));
     assert!(!LinearSolver::new(&hinges::pattern(3, &hinges::chain(3))).is_sparse());
+}
+
+/// Large enough for a sparse coupling system.
+#[test]
+fn a_redundant_hinge_of_a_long_chain_is_named() {
+    let twin = "[[joint]]\nname = \"twin\"\nkind = \"atpoint\"\na = \"link12.end\"\nb = \"link13.start\"\n";
+    let scene = with_settings(&(scene_text(40) + twin), "", &[]);
+    let error = try_run(&scene, Place::InProcess, &Options::default()).unwrap_err();
+    let text = error.to_string();
+    let named = ["twin.lambda.", "hinge12.lambda."];
+    assert!(named.iter().any(|name| text.contains(name)), "{text}");
+    assert!(text.contains("another joint demands the same"), "{text}");
 }
