@@ -4,9 +4,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+pub mod chain;
 pub mod convergence;
 pub mod errors;
 pub mod golden;
+pub mod hinges;
 pub mod in_space;
 pub mod masses;
 pub mod process;

@@ -12,6 +12,7 @@ use linchpin_master::scene::{Override, Scene, parse};
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;
+use linchpin_tests::chain::scene_text;
 use linchpin_worker::Host;
 
 const SCENE: &str = include_str!("../../scenes/oscillator.toml");
@@ -46,9 +47,9 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-fn allocations_per_100_steps(overrides: &[&str]) -> usize {
+fn allocations_per_100_steps(scene: &str, overrides: &[&str]) -> usize {
     let overrides: Vec<Override> = overrides.iter().map(|text| text.parse().unwrap()).collect();
-    let scene = parse(SCENE, "oscillator.toml", &overrides).unwrap();
+    let scene = parse(scene, "scene.toml", &overrides).unwrap();
     let connector = Connector::new(Place::InProcess);
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
     let mut simulation = CoSimulation::start(&scene, &mut connect, &Options::default()).unwrap();
@@ -91,7 +92,17 @@ fn a_macro_step_allocates_nothing() {
             "coupling.damping=10",
         ],
     ] {
-        assert_eq!(allocations_per_100_steps(method), 0, "{method:?}");
+        assert_eq!(allocations_per_100_steps(SCENE, method), 0, "{method:?}");
+    }
+}
+
+/// Also with a sparse coupling system, and whatever the number of links: here the solver keeps its memory as well.
+#[test]
+fn a_macro_step_of_a_chain_allocates_nothing() {
+    let solver = "subsystem.*.solver={ kind = \"rk4\", step = 1e-3 }";
+    for links in [2, 16, 64] {
+        let scene = scene_text(links);
+        assert_eq!(allocations_per_100_steps(&scene, &[solver]), 0, "{links}");
     }
 }
 

@@ -1,86 +1,47 @@
-//! The hanging chain, one worker a link, against its monolithic solution.
+//! The hanging chain, one worker a link: against its monolithic solution, and how its cost grows with the number of links.
 
 #![allow(clippy::unwrap_used, missing_docs)]
-
-use std::fmt::Write;
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
 use linchpin_master::cosimulation::Options;
-use linchpin_master::scene::{Scene, parse};
-use linchpin_models::reference::{Chain, GroundHinge, Link};
-use linchpin_tests::runs::run;
+use linchpin_master::coupling::solve::LinearSolver;
+use linchpin_master::scene::Scene;
+use linchpin_models::reference::LinkMotion;
+use linchpin_tests::chain::{reference, scene_text};
+use linchpin_tests::hinges;
+use linchpin_tests::runs::{run, try_run};
+use linchpin_tests::scenes::with_settings;
 
-const LENGTH: f64 = 0.7;
-const MASS: f64 = 1.3;
-const INERTIA: f64 = 0.06;
+const TIGHT: &str = "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-11, atol = 1e-11 }";
 
-/// Links at awkward angles from the x axis, hanging down.
-fn angles(n: usize) -> Vec<f64> {
-    (0..n)
-        .map(|link| -1.2 + 0.3 * (1.7 * link as f64).sin())
-        .collect()
-}
-
-fn scene(n: usize, h: f64, t_end: f64) -> Scene {
-    let angles = angles(n);
-    let mut text = format!(
-        "[scene]\nname = \"chain\"\nt_end = {t_end}\n[coupling]\nmethod = \"weighted\"\ndegree = 1\nmacro_step = {h}\n"
-    );
-    let (mut x, mut y) = (0.0, 0.0);
-    let common = format!("m = {MASS}, inertia = {INERTIA}, length = {LENGTH}");
-    let solver = "solver = { kind = \"radau5\", rtol = 1e-11, atol = 1e-11 }";
-    for (link, angle) in angles.iter().enumerate() {
-        let (model, place) = match link {
-            0 => ("pendulum", String::new()),
-            _ => ("planar-body", format!(", x0 = {x:?}, y0 = {y:?}")),
-        };
-        writeln!(
-            text,
-            "[[subsystem]]\nname = \"link{link}\"\nmodel = \"{model}\"\nparameters = {{ {common}{place}, angle0 = {angle:?} }}\n{solver}"
-        )
-        .unwrap();
-        x += LENGTH * angle.cos();
-        y += LENGTH * angle.sin();
-    }
-    for hinge in 1..n {
-        let a = if hinge == 1 { "tip" } else { "end" };
-        writeln!(
-            text,
-            "[[joint]]\nname = \"hinge{hinge}\"\nkind = \"atpoint\"\na = \"link{}.{a}\"\nb = \"link{hinge}.start\"",
-            hinge - 1
-        )
-        .unwrap();
-    }
-    let variables: Vec<String> = (0..n).map(|link| format!("\"link{link}.angle\"")).collect();
-    writeln!(text, "[output]\nvariables = [{}]", variables.join(", ")).unwrap();
-    parse(&text, "chain", &[]).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn reference(n: usize) -> Chain {
-    Chain {
-        link: Link {
-            m: MASS,
-            inertia: INERTIA,
-            length: LENGTH,
-        },
-        hinge: GroundHinge::default(),
-        gravity: 9.81,
-        angles: angles(n),
-        rates: vec![0.0; n],
-    }
+fn scene(links: usize, settings: &[&str]) -> Scene {
+    with_settings(&scene_text(links), "", settings)
 }
 
 #[test]
+fn the_scenes_of_users_are_those_of_the_tests() {
+    for (links, text) in [
+        (2, include_str!("../../scenes/chain/2.toml")),
+        (8, include_str!("../../scenes/chain/8.toml")),
+        (64, include_str!("../../scenes/chain/64.toml")),
+    ] {
+        assert!(text == scene_text(links), "scenes/chain/{links}.toml");
+    }
+}
+
+/// The last one has a sparse coupling system.
+#[test]
 fn angles_and_forces_are_those_of_the_monolithic_chain() {
-    for n in [2, 3, 5, 8] {
-        let trajectory = run(&scene(n, 1e-3, 0.3), Place::InProcess);
+    for (n, t_end) in [(2, 0.3), (3, 0.3), (5, 0.3), (8, 0.3), (24, 0.1)] {
+        let trajectory = run(
+            &scene(n, &[&format!("scene.t_end={t_end}"), TIGHT]),
+            Place::InProcess,
+        );
         let motions = reference(n).motions(&trajectory.column("t")).unwrap();
         for link in 0..n {
-            let found = trajectory.column(&format!("link{link}.angle"));
-            let off = |(found, motion): (&f64, &linchpin_models::reference::LinkMotion)| {
-                (found - motion.angles[link]).abs()
-            };
+            let found = trajectory.column(&format!("link{}.angle", link + 1));
+            let off = |(found, motion): (&f64, &LinkMotion)| (found - motion.angles[link]).abs();
             let worst = found.iter().zip(&motions).map(off).fold(0.0, f64::max);
             assert!(worst < 1e-7, "n = {n}, link {link}: {worst:e}");
         }
@@ -93,18 +54,88 @@ fn angles_and_forces_are_those_of_the_monolithic_chain() {
     }
 }
 
+fn start(scene: &Scene) -> CoSimulation {
+    let connector = Connector::new(Place::InProcess);
+    let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
+    CoSimulation::start(scene, &mut connect, &Options::default()).unwrap()
+}
+
 #[test]
 fn one_exchange_a_worker_and_macro_step_for_any_length() {
-    for n in [2, 16, 64] {
-        let scene = scene(n, 1e-3, 5e-3);
-        let connector = Connector::new(Place::InProcess);
-        let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
-        let mut simulation =
-            CoSimulation::start(&scene, &mut connect, &Options::default()).unwrap();
-        let before = simulation.statistics().exchanges;
-        for step in 1..=4 {
+    for n in [2, 4, 8, 16, 32, 64] {
+        let mut simulation = start(&scene(n, &[]));
+        let exchanges = |simulation: &CoSimulation| -> Vec<u64> {
+            let subsystems = simulation.statistics().subsystems;
+            subsystems.iter().map(|own| own.exchanges).collect()
+        };
+        let before = exchanges(&simulation);
+        assert_eq!(before.len(), n);
+        for step in 1..=3 {
             assert!(simulation.macro_step().unwrap());
-            assert_eq!(simulation.statistics().exchanges - before, step * n as u64);
+            let expected: Vec<u64> = before.iter().map(|before| before + step).collect();
+            assert_eq!(exchanges(&simulation), expected);
         }
     }
+}
+
+/// What is counted at a number of links.
+fn assert_linear(what: &str, count: impl Fn(usize) -> usize) {
+    let [short, middle, long] = [16, 32, 64].map(count);
+    assert!(short > 0, "{what}");
+    assert_eq!(long - middle, 2 * (middle - short), "{what}");
+}
+
+#[test]
+fn what_a_macro_step_takes_grows_linearly_with_the_links() {
+    assert_linear("entries of the Jacobian", |n| {
+        hinges::pattern(n, &hinges::chain(n)).entries()
+    });
+    assert_linear("integrations", |n| {
+        let mut simulation = start(&scene(n, &[]));
+        let before = simulation.statistics().integrations;
+        simulation.macro_step().unwrap();
+        (simulation.statistics().integrations - before) as usize
+    });
+    assert_linear("numbers in the messages", |n| {
+        let mut simulation = start(&scene(n, &[]));
+        // The polynomials have their full degree.
+        (0..3).for_each(|_| assert!(simulation.macro_step().unwrap()));
+        let messages = |subsystem| {
+            let (request, reply) = simulation.last_messages(subsystem).unwrap();
+            let advance = &request.advance.as_ref().unwrap().signals;
+            let predict = request.predict.as_ref().unwrap();
+            let signals = advance
+                .iter()
+                .chain(&predict.signals)
+                .chain(&predict.perturbed);
+            let sent: usize = signals.map(|signal| signal.values.len()).sum();
+            let perturbed: usize = reply.perturbed.iter().map(|one| one.values.len()).sum();
+            sent + perturbed
+        };
+        (0..n).map(messages).sum()
+    });
+}
+
+/// Bodies that hang on each other one by one, in a ring or as a tree keep the system sparse; a star fills it.
+#[test]
+fn the_system_is_sparse_where_few_bodies_meet() {
+    let is_sparse =
+        |hinges: &[[usize; 2]]| LinearSolver::new(&hinges::pattern(64, hinges)).is_sparse();
+    assert!(is_sparse(&hinges::chain(64)));
+    assert!(is_sparse(&hinges::ring(64)));
+    assert!(is_sparse(&hinges::tree(64)));
+    assert!(!is_sparse(&hinges::star(64)));
+    assert!(!LinearSolver::new(&hinges::pattern(3, &hinges::chain(3))).is_sparse());
+}
+
+/// Large enough for a sparse coupling system.
+#[test]
+fn a_redundant_hinge_of_a_long_chain_is_named() {
+    let twin = "[[joint]]\nname = \"twin\"\nkind = \"atpoint\"\na = \"link12.end\"\nb = \"link13.start\"\n";
+    let scene = with_settings(&(scene_text(40) + twin), "", &[]);
+    let error = try_run(&scene, Place::InProcess, &Options::default()).unwrap_err();
+    let text = error.to_string();
+    let named = ["twin.lambda.", "hinge12.lambda."];
+    assert!(named.iter().any(|name| text.contains(name)), "{text}");
+    assert!(text.contains("another joint demands the same"), "{text}");
 }

@@ -1,5 +1,7 @@
 //! Which entries of the coupling Jacobian may differ from 0.
 
+use std::ops::Range;
+
 /// The entries of a square sparse matrix, column by column, and for each term of the assembly the entry that it adds to.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pattern {
@@ -53,6 +55,11 @@ impl Pattern {
     /// First entry of every column, and the number of all entries.
     pub fn starts(&self) -> &[usize] {
         &self.starts
+    }
+
+    /// The entries of one column.
+    pub fn entries_of(&self, column: usize) -> Range<usize> {
+        self.starts[column]..self.starts[column + 1]
     }
 
     /// The entry that a term of the assembly adds to.

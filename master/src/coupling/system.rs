@@ -88,11 +88,15 @@ impl System {
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
         point: Point<'_>,
     ) {
-        for (number, row) in layout.rows.iter().enumerate() {
-            let motion = motion_of(layout, row.joint, outputs);
-            let condition = layout.joints[row.joint].joint.condition(row.condition);
-            for &level in self.level.up_to() {
-                self.residuals[level as usize][number] = condition.value(level, &motion);
+        let mut row = 0;
+        for (number, joint) in layout.joints.iter().enumerate() {
+            let motion = motion_of(layout, number, outputs);
+            for condition in joint.joint.conditions() {
+                let values = condition.values(self.level, &motion);
+                for &level in self.level.up_to() {
+                    self.residuals[level as usize][row] = values[level as usize];
+                }
+                row += 1;
             }
         }
         for exchanged in &layout.exchanged {
@@ -156,11 +160,8 @@ impl System {
                     }
                     let change = bound.change(own, &columns[input].derivatives);
                     for condition in joint.joint.conditions() {
-                        let response = self.level.up_to().iter().map(|&level| {
-                            condition.change(level, &self.motions[number], end, &change)
-                        });
-                        let mut responses = [0.0; 3];
-                        responses.iter_mut().zip(response).for_each(|(r, v)| *r = v);
+                        let motion = &self.motions[number];
+                        let responses = condition.changes(self.level, motion, end, &change);
                         slot = self.spread(input, responses, slot);
                     }
                 }

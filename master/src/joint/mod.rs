@@ -44,6 +44,11 @@ impl Level {
         &Self::ALL[..=self as usize]
     }
 
+    /// `value` of this level and those below it, 0 above.
+    fn each_up_to(self, value: impl Fn(Self) -> f64) -> [f64; 3] {
+        Self::ALL.map(|level| if level <= self { value(level) } else { 0.0 })
+    }
+
     /// As it stands in the names of result columns.
     pub fn name(self) -> &'static str {
         match self {
@@ -74,15 +79,26 @@ pub trait Condition: Send + Sync {
 
     /// `g`, `g'` or `g''`.
     fn value(&self, level: Level, motion: &Motion) -> f64 {
-        let [u, w] = self.factors(motion);
-        u.dot(&w, level)
+        self.values(level, motion)[level as usize]
     }
 
-    /// Change of [`Condition::value`] under a small change of the motion at one end.
-    fn change(&self, level: Level, motion: &Motion, end: End, change: &MarkerChange) -> f64 {
+    /// `g`, `g'`, `g''` up to `highest`, 0 above it.
+    fn values(&self, highest: Level, motion: &Motion) -> [f64; 3] {
+        let [u, w] = self.factors(motion);
+        highest.each_up_to(|level| u.dot(&w, level))
+    }
+
+    /// Changes of [`Condition::values`] under a small change of the motion at one end.
+    fn changes(
+        &self,
+        highest: Level,
+        motion: &Motion,
+        end: End,
+        change: &MarkerChange,
+    ) -> [f64; 3] {
         let [u, w] = self.factors(motion);
         let [du, dw] = self.factor_changes(motion, end, change);
-        du.dot(&w, level) + u.dot(&dw, level)
+        highest.each_up_to(|level| du.dot(&w, level) + u.dot(&dw, level))
     }
 
     /// Size of the terms that cancel in [`Condition::value`] while the condition holds, for judging what is rounding:

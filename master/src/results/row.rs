@@ -78,15 +78,14 @@ impl Row {
             self.values.extend_from_slice(&subsystem.outputs);
         }
         self.values.extend_from_slice(multipliers);
-        for row in &parts.layout.rows {
-            let motion = motion_of(&parts.layout, row.joint, |s| {
+        for (number, joint) in parts.layout.joints.iter().enumerate() {
+            let motion = motion_of(&parts.layout, number, |s| {
                 parts.subsystems[s].coupling_values()
             });
-            let joint = &parts.layout.joints[row.joint].joint;
-            let condition = joint.condition(row.condition);
-            let levels = parts.layout.level.up_to().iter();
-            self.values
-                .extend(levels.map(|&level| condition.value(level, &motion)));
+            for condition in joint.joint.conditions() {
+                let values = condition.values(parts.layout.level, &motion);
+                self.values.extend_from_slice(&values[..self.levels]);
+            }
         }
     }
 

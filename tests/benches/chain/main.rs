@@ -1,0 +1,63 @@
+//! What a chain of n links with one worker each costs over n = 2 .. 64.
+//!
+//! * one solution of the coupling system, dense and sparse, for chains, rings, trees and stars of bodies: from here comes
+//!   where [`LinearSolver`](linchpin_master::coupling::solve::LinearSolver) changes from one to the other;
+//! * the macro step with the workers in this process and as n processes over Unix sockets;
+//! * the memory of the master after a thousand and after ten thousand macro steps.
+//!
+//! `cargo bench --workspace --bench chain` prints the tables of `docs/cost.md` and draws its picture to
+//! `target/chain-cost.svg`; `-- solver`, `-- steps` and `-- memory` do one part. Every time is the least of sixty short blocks, so that
+//! other work of the machine counts little.
+
+// A bench stops at the first thing that is not as it should be.
+#![allow(clippy::unwrap_used)]
+
+mod macro_steps;
+mod memory;
+mod picture;
+mod solver;
+
+use clap::Parser;
+use linchpin::commands::worker;
+use linchpin::connect::Place;
+
+/// Blocks of one measurement.
+const BLOCKS: usize = 60;
+
+const LINKS: [usize; 6] = [2, 4, 8, 16, 32, 64];
+
+#[derive(Parser)]
+enum Role {
+    /// Serves the built-in models, as `linchpin worker`.
+    Worker(worker::Arguments),
+}
+
+fn main() {
+    let first = std::env::args().nth(1).unwrap_or_default();
+    if first == "worker" {
+        let Role::Worker(arguments) = Role::parse();
+        worker::execute(&arguments).unwrap();
+        return;
+    }
+    let is_wanted = |part| first.starts_with("--") || first.is_empty() || first == part;
+    if is_wanted("memory") {
+        memory::print_table();
+    }
+    let solutions = is_wanted("solver").then(solver::print_table);
+    if is_wanted("steps") {
+        let costs = [Place::InProcess, Place::Processes].map(macro_steps::print_table);
+        if let Some(solutions) = solutions {
+            picture::draw(&costs, &solutions);
+        }
+    }
+}
+
+/// The least time in us that one of `count` turns takes, over all blocks.
+fn least_time(count: usize, mut turn: impl FnMut()) -> f64 {
+    let block = |_| {
+        let started = std::time::Instant::now();
+        (0..count).for_each(|_| turn());
+        started.elapsed().as_secs_f64() * 1e6 / count as f64
+    };
+    (0..BLOCKS).map(block).fold(f64::INFINITY, f64::min)
+}
