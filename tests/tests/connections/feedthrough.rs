@@ -50,7 +50,8 @@ const COUPLINGS: [&str; 5] = [
     "method=explicit mu=10H",
 ];
 
-/// A ramp that goes through two gains is there at the end at every macro point, without the delay of a step.
+/// A ramp that goes through two gains is there at the end at every macro point, without the delay of a step that the explicit
+/// method has.
 #[test]
 fn a_chain_has_no_delay() {
     let rate = 7.0;
@@ -60,7 +61,7 @@ fn a_chain_has_no_delay() {
         Gain { gain: -2.3, setpoint: 0.9, offset: 0.0 },
         Gain { gain: 40.0, setpoint: 0.0, offset: 1.1 },
     ];
-    for coupling in COUPLINGS {
+    for &coupling in &COUPLINGS[..4] {
         let ramp = with_settings(
             &text(&gains, &connections),
             coupling,

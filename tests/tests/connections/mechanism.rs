@@ -41,7 +41,8 @@ const SHAFT: Drive = Drive {
     reference: with_link,
     multipliers: &[
         ("slider.lambda", |motion| motion.slider_crank.multiplier),
-        ("shaft.lambda", |motion| motion.shaft_torque),
+        // The moment on the rotor.
+        ("shaft.lambda", |motion| -motion.shaft_torque),
     ],
 };
 
@@ -145,28 +146,28 @@ impl Drive {
     }
 }
 
+/// Multipliers of degree k have the order k + 1 and add the order k + 2 to the motion; signals and exchanged motion of degree
+/// k' add k' + 1. With k = 0 the error of the motion that the start leaves falls faster, so that 2 is reached from above.
 #[test]
 fn orders_of_convergence() {
-    const STEPS: [f64; 4] = [4e-3, 2e-3, 1e-3, 5e-4];
+    const STEPS: [f64; 4] = [2e-3, 1e-3, 5e-4, 2.5e-4];
     let cases = [
-        ("method=weighted degree=0 exchanged_degree=0", [1.0; 3]),
-        ("method=weighted degree=0 exchanged_degree=2", [1.0; 3]),
-        ("method=weighted degree=1 exchanged_degree=1", [1.0; 3]),
-        ("method=weighted degree=1 exchanged_degree=2", [1.0; 3]),
-        ("method=weighted degree=1 exchanged_degree=3", [1.0; 3]),
-        ("method=weighted degree=2 exchanged_degree=2", [1.0; 3]),
-        ("method=weighted index=2 a=1 degree=0 exchanged_degree=2", [1.0; 3]),
-        ("method=baumgarte index=3 degree=0 exchanged_degree=2", [1.0; 3]),
-        ("method=baumgarte index=1 beta=2H gamma=H^2 degree=1 exchanged_degree=2", [1.0; 3]),
+        ("degree=0 exchanged_degree=0", [1.0, 1.0, 1.0]),
+        ("degree=0 exchanged_degree=2", [2.15, 2.15, 1.0]),
+        ("degree=1 exchanged_degree=1", [2.0, 2.0, 2.0]),
+        ("degree=1 exchanged_degree=2", [3.0, 3.0, 2.0]),
+        ("degree=1 exchanged_degree=3", [3.0, 3.0, 2.0]),
+        // The start limits the multipliers, as for the oscillator.
+        ("degree=2 exchanged_degree=2", [3.0, 3.0, 2.5]),
+        ("index=2 a=1 degree=0 exchanged_degree=2", [2.05, 2.0, 1.0]),
+        ("method=baumgarte index=3 degree=0 exchanged_degree=2", [2.05, 2.0, 1.0]),
+        ("method=baumgarte degree=1 exchanged_degree=2", [3.0, 3.0, 2.0]),
     ];
-    for (drive, name) in [(&CRANK, "crank"), (&SHAFT, "shaft")] {
-        for (coupling, orders) in cases {
-            let what = format!("{name}, {coupling}");
-            assert_orders(&what, &STEPS, orders, |h| {
-                let coupling = format!("{coupling} macro_step={h}");
-                drive.errors(&drive.run(&coupling, &["scene.t_end=0.4"]))
-            });
-        }
+    for drive in [&CRANK, &SHAFT] {
+        assert_orders(&cases, &STEPS, |coupling, h| {
+            let coupling = format!("{coupling} macro_step={h}");
+            drive.errors(&drive.run(&coupling, &["scene.t_end=0.4"]))
+        });
     }
 }
 
@@ -197,7 +198,7 @@ fn every_method_runs() {
             ("method=weighted index=3 degree=0", 1e-4),
             ("method=baumgarte degree=1", 1e-5),
             ("method=baumgarte index=2 beta=2e-3 degree=0", 1e-3),
-            ("method=explicit mu=2e-3", 3e-2),
+            ("method=explicit mu=2e-3 degree=0 exchanged_degree=0", 3e-2),
         ] {
             let [angles, ..] = drive.errors(&drive.run(coupling, &["scene.t_end=0.4"]));
             println!("{coupling}: {angles:e}");
