@@ -71,13 +71,37 @@ fn own_outputs() -> [v1::Variable; 6] {
 
 fn parameters() -> Vec<v1::Parameter> {
     vec![
-        needed("inertia", "kg m^2", "moment of inertia of the rotor and what is fixed to it about the shaft, greater than 0"),
-        needed("resistance", "ohm", "resistance of the armature, 0 or greater"),
-        needed("inductance", "H", "inductance of the armature, greater than 0"),
+        needed(
+            "inertia",
+            "kg m^2",
+            "moment of inertia of the rotor and what is fixed to it about the shaft, greater than 0",
+        ),
+        needed(
+            "resistance",
+            "ohm",
+            "resistance of the armature, 0 or greater",
+        ),
+        needed(
+            "inductance",
+            "H",
+            "inductance of the armature, greater than 0",
+        ),
         needed("back_emf", "V s/rad", "induced voltage per rate"),
-        needed("torque_constant", "N m/A", "torque per current; equal to back_emf if nothing else takes power"),
-        at_zero("friction", "N m s/rad", "viscous friction of the rotor, 0 or greater"),
-        at_zero("crank", "m", "distance from the shaft to the marker pin, 0 or greater"),
+        needed(
+            "torque_constant",
+            "N m/A",
+            "torque per current; equal to back_emf if nothing else takes power",
+        ),
+        at_zero(
+            "friction",
+            "N m s/rad",
+            "viscous friction of the rotor, 0 or greater",
+        ),
+        at_zero(
+            "crank",
+            "m",
+            "distance from the shaft to the marker pin, 0 or greater",
+        ),
         at_zero("shaft_x", "m", "place of the shaft"),
         at_zero("shaft_y", "m", "place of the shaft"),
         at_zero("angle0", "rad", "angle at the start, from the x axis"),

@@ -52,8 +52,16 @@ pub fn model(setpoint: f64) -> v1::Model {
         parameters: vec![
             needed("proportional", ANY, "control per error"),
             needed("integral", ANY, "rate of the control per error"),
-            at_zero(SETPOINT, ANY, "value of the input setpoint unless it is connected"),
-            at_zero("integral0", ANY, "integral part of the control at the start"),
+            at_zero(
+                SETPOINT,
+                ANY,
+                "value of the input setpoint unless it is connected",
+            ),
+            at_zero(
+                "integral0",
+                ANY,
+                "integral part of the control at the start",
+            ),
         ],
         markers: Vec::new(),
         solvers: solvers::descriptions(),

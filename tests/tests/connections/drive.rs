@@ -20,7 +20,7 @@ const SETPOINT: f64 = 7.0;
 /// Rate, current and integral part of the control at the start.
 const START: [f64; 3] = [1.9, 1.4, -0.2];
 
-fn text() -> String {
+pub fn text() -> String {
     let [rate, current, integral] = START;
     format!(
         r#"
@@ -50,6 +50,14 @@ to = "motor.voltage"
 variables = ["motor.current", "controller.integral"]
 "#
     )
+}
+
+/// The two subsystems alone.
+pub fn without_connections() -> String {
+    let text = text();
+    let (head, tail) = text.split_once("[[connection]]").unwrap();
+    let (_, output) = tail.split_once("[output]").unwrap();
+    format!("{head}[output]{output}")
 }
 
 fn scene(coupling: &str) -> Scene {
@@ -197,13 +205,12 @@ fn a_signal_that_only_goes_forward() {
 /// Subsystems that nothing couples run side by side.
 #[test]
 fn no_joints_and_no_connections() {
-    let (head, tail) = text()
-        .split_once("[[connection]]")
-        .map(|(head, tail)| (head.to_owned(), tail.to_owned()))
-        .unwrap();
-    let (_, output) = tail.split_once("[output]").unwrap();
-    let text = format!("{head}[output]{output}");
-    for coupling in ["method=weighted", "method=explicit mu=10H", "method=jacobi stiffness=1.0"] {
+    let text = without_connections();
+    for coupling in [
+        "method=weighted",
+        "method=explicit mu=10H",
+        "method=jacobi stiffness=1.0",
+    ] {
         let alone = run(&with_settings(&text, coupling, &[TIGHT]), Place::InProcess);
         let integral = alone.column("controller.integral");
         let expected = START[2] + INTEGRAL * SETPOINT * 0.5;

@@ -19,7 +19,15 @@ fn text(gains: &[Gain], connections: &[(usize, usize, &str)]) -> String {
     let mut text = String::from(
         "[scene]\nname = \"gains\"\nt_end = 0.1\n[coupling]\nmethod = \"weighted\"\nmacro_step = 1e-2\n",
     );
-    for (number, Gain { gain, setpoint, offset }) in gains.iter().enumerate() {
+    for (
+        number,
+        Gain {
+            gain,
+            setpoint,
+            offset,
+        },
+    ) in gains.iter().enumerate()
+    {
         text += &format!(
             "[[subsystem]]\nname = \"g{number}\"\nmodel = \"pi-controller\"\n\
              parameters = {{ proportional = {gain:?}, integral = 0.0, setpoint = {setpoint:?}, integral0 = {offset:?} }}\n"
@@ -57,20 +65,38 @@ fn a_chain_has_no_delay() {
     let rate = 7.0;
     let connections = [(0, 1, "measured"), (1, 2, "setpoint")];
     let gains = [
-        Gain { gain: 0.0, setpoint: 1.0, offset: 0.3 },
-        Gain { gain: -2.3, setpoint: 0.9, offset: 0.0 },
-        Gain { gain: 40.0, setpoint: 0.0, offset: 1.1 },
+        Gain {
+            gain: 0.0,
+            setpoint: 1.0,
+            offset: 0.3,
+        },
+        Gain {
+            gain: -2.3,
+            setpoint: 0.9,
+            offset: 0.0,
+        },
+        Gain {
+            gain: 40.0,
+            setpoint: 0.0,
+            offset: 1.1,
+        },
     ];
     for &coupling in &COUPLINGS[..4] {
         let ramp = with_settings(
             &text(&gains, &connections),
             coupling,
-            &[&format!("subsystem.g0.parameters.integral={rate:?}"), "output.variables=[\"g2.control\"]"],
+            &[
+                &format!("subsystem.g0.parameters.integral={rate:?}"),
+                "output.variables=[\"g2.control\"]",
+            ],
         );
         let chain = try_run(&ramp, Place::InProcess, &Options::default()).unwrap();
         for (t, end) in chain.column("t").iter().zip(chain.column("g2.control")) {
             let expected = 40.0 * -2.3 * (0.9 - (0.3 + rate * t)) + 1.1;
-            assert!((end - expected).abs() < 1e-8, "{coupling} {t}: {end} {expected}");
+            assert!(
+                (end - expected).abs() < 1e-8,
+                "{coupling} {t}: {end} {expected}"
+            );
         }
     }
 }
@@ -81,10 +107,24 @@ fn a_chain_has_no_delay() {
 fn a_loop_is_solved_at_every_macro_point() {
     let connections = [(1, 0, "measured"), (0, 1, "measured")];
     for coupling in COUPLINGS {
-        for (a, b) in [(0.5, -0.7), (-1.0, 1.0), (5.0, -3.0), (40.0, 2.0), (2.0, 0.55)] {
+        for (a, b) in [
+            (0.5, -0.7),
+            (-1.0, 1.0),
+            (5.0, -3.0),
+            (40.0, 2.0),
+            (2.0, 0.55),
+        ] {
             let gains = [
-                Gain { gain: a, setpoint: 1.7, offset: 0.4 },
-                Gain { gain: b, setpoint: -0.6, offset: 0.0 },
+                Gain {
+                    gain: a,
+                    setpoint: 1.7,
+                    offset: 0.4,
+                },
+                Gain {
+                    gain: b,
+                    setpoint: -0.6,
+                    offset: 0.0,
+                },
             ];
             let solved = trajectory(&gains, &connections, coupling);
             let (p, q) = (a * 1.7 + 0.4, b * -0.6);
@@ -106,9 +146,21 @@ fn a_loop_of_gain_one_is_refused_by_name() {
     for (a, b) in [(1.0, 1.0), (-3.0, -1.0 / 3.0), (1e4, 1e-4)] {
         for offset in [0.0, 0.3] {
             let gains = [
-                Gain { gain: 50.0, setpoint: offset, offset: 0.0 },
-                Gain { gain: a, setpoint: 0.0, offset },
-                Gain { gain: b, setpoint: 0.0, offset: 0.0 },
+                Gain {
+                    gain: 50.0,
+                    setpoint: offset,
+                    offset: 0.0,
+                },
+                Gain {
+                    gain: a,
+                    setpoint: 0.0,
+                    offset,
+                },
+                Gain {
+                    gain: b,
+                    setpoint: 0.0,
+                    offset: 0.0,
+                },
             ];
             for coupling in COUPLINGS {
                 let scene = scene(&gains, &connections, coupling);

@@ -29,7 +29,9 @@ const CRANK: Drive = Drive {
     scene: include_str!("../../../scenes/motor/slider-crank.toml"),
     reference: with_block,
     multipliers: &[
-        ("slider.lambda.inplane", |motion| motion.slider_crank.multiplier),
+        ("slider.lambda.inplane", |motion| {
+            motion.slider_crank.multiplier
+        }),
         ("pin.lambda.x", |motion| force_on_pin(motion)[0]),
         ("pin.lambda.y", |motion| force_on_pin(motion)[1]),
     ],
@@ -99,9 +101,8 @@ fn force_on_pin(motion: &MotorDrivenMotion) -> [f64; 2] {
         radial * sin + tangential * cos,
     ];
     let weight = [0.0, -BLOCK_MASS * 9.81];
-    [0, 1].map(|axis| {
-        weight[axis] + own.multiplier * across[axis] - BLOCK_MASS * acceleration[axis]
-    })
+    [0, 1]
+        .map(|axis| weight[axis] + own.multiplier * across[axis] - BLOCK_MASS * acceleration[axis])
 }
 
 /// Angular acceleration of the crank, from the torque that turns it.
@@ -128,10 +129,15 @@ impl Drive {
     fn errors(&self, trajectory: &Trajectory) -> [f64; 3] {
         let motions = self.exact(trajectory);
         let pair = |column: &str, exact: fn(&MotorDrivenMotion) -> f64| {
-            (trajectory.column(column), motions.iter().map(exact).collect())
+            (
+                trajectory.column(column),
+                motions.iter().map(exact).collect(),
+            )
         };
         let multipliers = self.multipliers.iter();
-        let multipliers: Vec<_> = multipliers.map(|(name, exact)| pair(name, *exact)).collect();
+        let multipliers: Vec<_> = multipliers
+            .map(|(name, exact)| pair(name, *exact))
+            .collect();
         [
             error_of(&[
                 pair("motor.angle", |motion| motion.slider_crank.angles[0]),
@@ -160,8 +166,14 @@ fn orders_of_convergence() {
         // The start limits the multipliers, as for the oscillator.
         ("degree=2 exchanged_degree=2", [3.0, 3.0, 2.5]),
         ("index=2 a=1 degree=0 exchanged_degree=2", [2.05, 2.0, 1.0]),
-        ("method=baumgarte index=3 degree=0 exchanged_degree=2", [2.05, 2.0, 1.0]),
-        ("method=baumgarte degree=1 exchanged_degree=2", [3.0, 3.0, 2.0]),
+        (
+            "method=baumgarte index=3 degree=0 exchanged_degree=2",
+            [2.05, 2.0, 1.0],
+        ),
+        (
+            "method=baumgarte degree=1 exchanged_degree=2",
+            [3.0, 3.0, 2.0],
+        ),
     ];
     for drive in [&CRANK, &SHAFT] {
         assert_orders(&cases, &STEPS, |coupling, h| {
@@ -177,12 +189,19 @@ fn the_mechanism_turns_at_the_set_speed() {
         let whole = drive.run("macro_step=1e-3", &[]);
         let [angles, electric, multipliers] = drive.errors(&whole);
         println!("{angles:e} {electric:e} {multipliers:e}");
-        let turned = |column: &str, start: f64| (whole.column(column).last().unwrap() - start) / TAU;
-        let [crank, link] = [turned("motor.angle", FRAC_PI_4), turned("link2.angle", 2.0 * FRAC_PI_4)];
+        let turned =
+            |column: &str, start: f64| (whole.column(column).last().unwrap() - start) / TAU;
+        let [crank, link] = [
+            turned("motor.angle", FRAC_PI_4),
+            turned("link2.angle", 2.0 * FRAC_PI_4),
+        ];
         assert!(crank > 3.0 && link > 3.0 - 0.25, "{crank} {link} turns");
         let rates = whole.column("motor.rate");
         let angle = whole.column("motor.angle");
-        let last_turn = angle.iter().position(|own| own + TAU > angle[angle.len() - 1]).unwrap();
+        let last_turn = angle
+            .iter()
+            .position(|own| own + TAU > angle[angle.len() - 1])
+            .unwrap();
         let mean = rates[last_turn..].iter().sum::<f64>() / (rates.len() - last_turn) as f64;
         assert!((mean / SPEED - 1.0).abs() < 0.02, "mean rate {mean}");
         assert!(angles < 1e-6 && electric < 1e-5 && multipliers < 1e-4);
@@ -215,7 +234,10 @@ fn the_first_row_is_consistent() {
         let exact = &drive.exact(&first)[0];
         for (column, of) in drive.multipliers {
             let (found, expected) = (first.column(column)[0], of(exact));
-            assert!((found - expected).abs() < 1e-9, "{column}: {found} {expected}");
+            assert!(
+                (found - expected).abs() < 1e-9,
+                "{column}: {found} {expected}"
+            );
         }
         let voltage = first.column("controller.control")[0];
         assert!((voltage - 60.0 * SPEED).abs() < 1e-12, "{voltage}");

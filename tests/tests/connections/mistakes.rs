@@ -34,7 +34,11 @@ fn an_unknown_subsystem() {
     refused(
         &[("from = \"motor.rate\"", "from = \"moter.rate\"")],
         "moter",
-        &["connection.speed.from", "\"moter\"", "did you mean `motor`?"],
+        &[
+            "connection.speed.from",
+            "\"moter\"",
+            "did you mean `motor`?",
+        ],
     );
     refused(
         &[("to = \"motor.voltage\"", "to = \"motr.voltage\"")],
@@ -149,7 +153,10 @@ fn methods_that_connect_no_signals() {
 fn a_signal_and_a_load_of_other_degrees_at_one_input() {
     let moment = "[[connection]]\nname = \"brake\"\nfrom = \"link2.rate\"\nto = \"motor.shaft_moment\" # both\n\n[[joint]]";
     refused(
-        &[("[[joint]]", moment), ("degree = 1 ", "degree = 1\nloads = \"master\" ")],
+        &[
+            ("[[joint]]", moment),
+            ("degree = 1 ", "degree = 1\nloads = \"master\" "),
+        ],
         "# both",
         &[
             "\"motor.shaft_moment\" takes this signal and the load of a joint",
