@@ -21,8 +21,11 @@ struct Drive {
     scene: &'static str,
     reference: fn() -> MotorDrivenSliderCrank,
     /// Result columns, and what they are in the reference.
-    multipliers: &'static [(&'static str, fn(&MotorDrivenMotion) -> f64)],
+    multipliers: &'static [(&'static str, Value)],
 }
+
+/// A value of the reference.
+type Value = fn(&MotorDrivenMotion) -> f64;
 
 /// The rotor is the crank, and carries the block on its pin.
 const CRANK: Drive = Drive {
@@ -128,7 +131,7 @@ impl Drive {
     /// Errors of the angles, of current and voltage, and of the multipliers.
     fn errors(&self, trajectory: &Trajectory) -> [f64; 3] {
         let motions = self.exact(trajectory);
-        let pair = |column: &str, exact: fn(&MotorDrivenMotion) -> f64| {
+        let pair = |column: &str, exact: Value| {
             (
                 trajectory.column(column),
                 motions.iter().map(exact).collect(),
