@@ -125,8 +125,9 @@ pub enum RunError {
     /// The coupling conditions do not determine the coupling variables.
     #[error(
         "{unknown} is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \
-         singular on {level} level; a joint is redundant, a coupled body does not react to its load, or H meets half a \
-         period of a subsystem (aliasing): change coupling.macro_step or the joints"
+         singular on {level} level; a joint is redundant, a coupled body does not react to its load, connected signals \
+         depend on each other without delay with a gain of 1 around the loop, or H meets half a period of a subsystem \
+         (aliasing): change coupling.macro_step, the joints or the connections"
     )]
     Singular {
         /// First coupling variable without a pivot.

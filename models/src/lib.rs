@@ -3,17 +3,20 @@
 //! * [`oscillator`]: one mass on a spring and a damper;
 //! * [`pendulum`], [`planar_body`]: rigid links in the plane, on a hinge and free;
 //! * [`spatial_body`]: a free rigid body in space;
+//! * [`dc_motor`], [`pi_controller`]: an electric drive, by signals and by its shaft;
 //! * [`multibody`]: systems of bodies with joints of their own, as a scene composes them;
 //! * [`integrators`]: time integration that several models share;
 //! * [`mod@reference`]: solutions that coupled runs are compared with.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod dc_motor;
 pub mod integrators;
 mod mechanics;
 pub mod multibody;
 pub mod oscillator;
 pub mod pendulum;
+pub mod pi_controller;
 pub mod planar_body;
 pub mod reference;
 pub mod spatial_body;
@@ -29,5 +32,7 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(spatial_body::SpatialBody),
         Box::new(multibody::PlanarMultibody),
         Box::new(multibody::SpatialMultibody),
+        Box::new(dc_motor::DcMotor),
+        Box::new(pi_controller::PiController),
     ]
 }

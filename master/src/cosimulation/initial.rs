@@ -2,6 +2,7 @@
 
 use nalgebra::UnitQuaternion;
 
+use super::signal_loop::SignalBlock;
 use super::{Parts, closed};
 use crate::coupling::columns::Column;
 use crate::coupling::layout::{Coupled, Layout, What};
@@ -9,7 +10,7 @@ use crate::coupling::solve::{LinearSolver, SingularColumn};
 use crate::coupling::system::{Point, System};
 use crate::error::RunError;
 use crate::joint::Level;
-use crate::scene::Scene;
+use crate::scene::{Connection, Scene};
 use crate::signal::attitude::unit_quaternion;
 
 /// Connected signals that change by less than this share are settled.
@@ -38,7 +39,8 @@ impl InitialState {
 
     /// Takes exchanged variables from the subsystems, and the multipliers from the scene where it gives them all; otherwise
     /// solves `g'' = 0` at `t_start`, which is linear in them because loads enter the equations of motion linearly (for the
-    /// oscillator: S1 eq. 3). Where signals are connected, all are solved for together by Newton's method.
+    /// oscillator: S1 eq. 3). Where signals are connected, `w - y(w) = 0` is solved for them, together with `g'' = 0`, by
+    /// Newton's method.
     pub(super) fn find(
         scene: &Scene,
         coupled: &Coupled<'_>,
@@ -52,15 +54,20 @@ impl InitialState {
             let outputs = evaluate_all(layout, parts, scene.t_start, &state)?;
             closed::check(scene, layout, &outputs)?;
         }
-        if given.is_none() {
-            let layout = Layout::new(coupled, Level::Acceleration)
-                .map_err(|lacks| ask_for_multiplier(scene, lacks.joint))?;
-            state.solve_accelerations(scene, &layout, parts)?;
+        match given {
+            Some(_) if scene.connections.is_empty() => {}
+            Some(_) => state.settle(scene, layout, parts, Multipliers::Held)?,
+            None => {
+                let layout = Layout::new(coupled, Level::Acceleration)
+                    .map_err(|lacks| ask_for_multiplier(scene, lacks.joint))?;
+                state.settle(scene, &layout, parts, Multipliers::Free)?;
+            }
         }
         Ok(state)
     }
 
-    /// Exchanged variables as the subsystems show them under these multipliers, 0 if none are given.
+    /// Exchanged variables as the subsystems show them under these multipliers, 0 if none are given. Positions do not
+    /// depend on inputs; connected signals may, and are settled later.
     pub(super) fn read(
         scene: &Scene,
         layout: &Layout,
@@ -74,67 +81,72 @@ impl InitialState {
         if let Some(multipliers) = multipliers {
             state.variables[..multipliers.len()].copy_from_slice(multipliers);
         }
-        for _ in 0..MOST_PASSES {
-            let outputs = evaluate_all(layout, parts, scene.t_start, &state)?;
-            let change = state.take(layout, &outputs);
-            // Positions do not depend on inputs; connected signals may.
-            if scene.connections.is_empty() || change <= SETTLED {
-                return Ok(state);
-            }
-        }
-        Err(refuse_loop(scene))
+        let outputs = evaluate_all(layout, parts, scene.t_start, &state)?;
+        state.take(layout, &outputs);
+        Ok(state)
     }
 
-    /// Takes over what the outputs show; returns the largest change relative to the value.
-    fn take(&mut self, layout: &Layout, outputs: &[Vec<f64>]) -> f64 {
-        let mut largest: f64 = 0.0;
+    /// Takes over what the outputs show.
+    fn take(&mut self, layout: &Layout, outputs: &[Vec<f64>]) {
         for exchanged in &layout.exchanged {
             let own = &outputs[exchanged.subsystem];
             match exchanged.what {
-                What::Output(place) => {
-                    let value = &mut self.variables[exchanged.first];
-                    let change = (own[place] - *value).abs() / own[place].abs().max(1.0);
-                    largest = largest.max(change);
-                    *value = own[place];
-                }
+                What::Output(place) => self.variables[exchanged.first] = own[place],
                 What::Attitude { places, attitude } => {
                     self.attitudes[attitude] = unit_quaternion(places.map(|place| own[place]));
                 }
             }
         }
-        largest
     }
 
-    fn solve_accelerations(
+    /// Newton's method; one pass is enough unless signals are connected.
+    fn settle(
         &mut self,
         scene: &Scene,
         layout: &Layout,
         parts: &Parts,
+        multipliers: Multipliers,
     ) -> Result<(), RunError> {
         let mut system = System::new(layout);
         let mut solver = LinearSolver::new(system.pattern());
+        let mut unsettled = 0;
         for _ in 0..MOST_PASSES {
-            let base = evaluate_all(layout, parts, scene.t_start, self)?;
-            let columns = self.columns(layout, parts, scene.t_start, &base)?;
-            let point = Point {
-                w: &self.variables,
-                attitudes: &self.attitudes,
+            self.linearise(scene, layout, parts, &mut system)?;
+            let changes = match multipliers {
+                Multipliers::Held => change_of_signals(scene, layout, &mut system)?,
+                Multipliers::Free => change_of_all(scene, layout, &mut system, &mut solver)?,
             };
-            system.assemble(layout, |subsystem| &base[subsystem], &columns, point);
-            let (pattern, jacobian, change) = system.level_equation(Level::Acceleration);
-            solver
-                .solve(pattern, jacobian, change)
-                .map_err(|SingularColumn(variable)| refuse_redundant(scene, layout, variable))?;
             let mut largest: f64 = 0.0;
-            for (value, change) in self.variables.iter_mut().zip(change) {
+            for (variable, change) in changes.iter().enumerate() {
+                let value = &mut self.variables[variable];
                 *value += *change;
-                largest = largest.max(change.abs() / value.abs().max(1.0));
+                let share = change.abs() / value.abs().max(1.0);
+                if share > largest {
+                    (largest, unsettled) = (share, variable);
+                }
             }
             if scene.connections.is_empty() || largest <= SETTLED {
                 return Ok(());
             }
         }
-        Err(refuse_loop(scene))
+        Err(refuse_loop(scene, layout, unsettled))
+    }
+
+    fn linearise(
+        &self,
+        scene: &Scene,
+        layout: &Layout,
+        parts: &Parts,
+        system: &mut System,
+    ) -> Result<(), RunError> {
+        let base = evaluate_all(layout, parts, scene.t_start, self)?;
+        let columns = self.columns(layout, parts, scene.t_start, &base)?;
+        let point = Point {
+            w: &self.variables,
+            attitudes: &self.attitudes,
+        };
+        system.assemble(layout, |subsystem| &base[subsystem], &columns, point);
+        Ok(())
     }
 
     /// Responses of zero length to all perturbed inputs.
@@ -153,7 +165,7 @@ impl InitialState {
                 ..Column::default()
             };
             let names = &layout.outputs[input.subsystem];
-            if input.perturbed.is_some() && !names.is_empty() {
+            if input.perturbed.is_some() {
                 let mut inputs =
                     layout.input_values(input.subsystem, &self.variables, &self.attitudes);
                 if !column.is_load {
@@ -179,6 +191,62 @@ impl InitialState {
             subsystem.outputs = subsystem.evaluate(t, &inputs, &subsystem.output_names)?;
         }
         Ok(())
+    }
+}
+
+/// Whether multipliers are solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Multipliers {
+    Held,
+    Free,
+}
+
+/// The change of multipliers and exchanged variables that meets `g'' = 0` and `w - y = 0`.
+fn change_of_all(
+    scene: &Scene,
+    layout: &Layout,
+    system: &mut System,
+    solver: &mut LinearSolver,
+) -> Result<Vec<f64>, RunError> {
+    check_loops(scene, layout, system)?;
+    let (pattern, jacobian, change) = system.level_equation(Level::Acceleration);
+    solver
+        .solve(pattern, jacobian, change)
+        .map_err(|SingularColumn(variable)| refuse_redundant(scene, layout, variable))?;
+    Ok(change.to_vec())
+}
+
+/// The change of the exchanged variables that meets `w - y = 0` under the present multipliers.
+fn change_of_signals(
+    scene: &Scene,
+    layout: &Layout,
+    system: &mut System,
+) -> Result<Vec<f64>, RunError> {
+    let block = check_loops(scene, layout, system)?;
+    let rows = layout.rows.len();
+    let solution = block.solution();
+    let solution = solution.ok_or_else(|| refuse_loop(scene, layout, rows))?;
+    let mut changes = vec![0.0; rows];
+    changes.extend(solution.iter());
+    Ok(changes)
+}
+
+/// Refuses signals that depend on each other without delay with a gain of 1.
+fn check_loops(
+    scene: &Scene,
+    layout: &Layout,
+    system: &mut System,
+) -> Result<SignalBlock, RunError> {
+    let rows = layout.rows.len();
+    let (pattern, jacobian, rhs) = system.level_equation(Level::Position);
+    let block = SignalBlock::of((pattern, jacobian, rhs), rows);
+    let undetermined = match scene.connections.is_empty() {
+        true => None,
+        false => block.undetermined(),
+    };
+    match undetermined {
+        None => Ok(block),
+        Some(variable) => Err(refuse_loop(scene, layout, rows + variable)),
     }
 }
 
@@ -225,7 +293,7 @@ fn given_multipliers(scene: &Scene, layout: &Layout) -> Result<Option<Vec<f64>>,
 
 fn refuse_redundant(scene: &Scene, layout: &Layout, variable: usize) -> RunError {
     let Some(row) = layout.rows.get(variable) else {
-        return refuse_loop(scene);
+        return refuse_loop(scene, layout, variable);
     };
     let key = format!("joint.{}", scene.joints[row.joint].name);
     let message = format!(
@@ -236,10 +304,23 @@ fn refuse_redundant(scene: &Scene, layout: &Layout, variable: usize) -> RunError
     scene.error(&key, message, Some(help.into())).into()
 }
 
-fn refuse_loop(scene: &Scene) -> RunError {
-    let message = "the connected signals have no unique value at the start: they depend on each other without delay";
-    let help = "let one of the connected models have a state between its input and its output";
-    scene.error("connection", message, Some(help.into())).into()
+fn refuse_loop(scene: &Scene, layout: &Layout, variable: usize) -> RunError {
+    let signal = layout.variable_name(variable);
+    let of_signal = |connection: &&Connection| {
+        let (subsystem, output) = &connection.from;
+        signal == format!("{}.{output}", scene.subsystems[*subsystem].name)
+    };
+    let key = match scene.connections.iter().find(of_signal) {
+        Some(connection) => format!("connection.{}", connection.name),
+        None => "connection".to_owned(),
+    };
+    let message = format!(
+        "\"{signal}\" has no unique value at t = {} s: connected signals depend on each other without delay, and the gain \
+         around the loop is 1",
+        scene.t_start
+    );
+    let help = "change a gain, or let one of the connected models have a state between its input and its output";
+    scene.error(&key, message, Some(help.into())).into()
 }
 
 fn ask_for_multiplier(scene: &Scene, joint: usize) -> RunError {

@@ -6,6 +6,7 @@ mod initial;
 mod mechanism;
 mod panels;
 mod refusal;
+mod signal_loop;
 mod start;
 mod subsystem;
 mod tie;
@@ -171,7 +172,7 @@ impl Parts {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
             let inputs = self.layout.inputs_of(number).len();
             let perturbed = self.layout.perturbed_inputs(number);
-            if subsystem.coupling_outputs == 0 {
+            if !subsystem.is_read() {
                 continue;
             }
             let predict = subsystem.request.predict.get_or_insert_default();

@@ -59,6 +59,7 @@ impl CoSimulation {
             connections: &connections,
         };
         let layout = layout_of(scene, &coupled)?;
+        refuse_mixed_degrees(scene, &layout)?;
         let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
         if options.record_markers {
             record_markers(&models, &layout.outputs, &mut recorded);
@@ -161,6 +162,32 @@ fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
         _ => Layout::new(coupled, level_of(method)),
     };
     layout.map_err(|lacks| refuse_marker(scene, lacks))
+}
+
+/// A signal and the load of a joint at one input are one polynomial, so they must have one degree.
+fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> {
+    let (degree, exchanged) = (scene.coupling.degree, scene.coupling.exchanged_degree);
+    let is_loaded = |connection: &&scene::Connection| {
+        let (subsystem, name) = &connection.to;
+        let mut inputs = layout.inputs_of(*subsystem).iter();
+        inputs.any(|input| {
+            !input.is_joint_input && input.name == *name && input.drives_load(layout.rows.len())
+        })
+    };
+    match scene.connections.iter().find(is_loaded) {
+        Some(connection) if degree != exchanged => {
+            let (subsystem, input) = &connection.to;
+            let message = format!(
+                "\"{}.{input}\" takes this signal and the load of a joint, but coupling.degree = {degree} and \
+                 coupling.exchanged_degree = {exchanged} differ",
+                scene.subsystems[*subsystem].name
+            );
+            let help = "give both the same value, or let the signal act at another marker";
+            let key = format!("connection.{}.to", connection.name);
+            Err(scene.error(&key, message, Some(help.into())).into())
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.

@@ -59,6 +59,11 @@ impl Subsystem {
         &self.name
     }
 
+    /// Whether the coupling reads outputs of it. Otherwise it is never asked to look ahead.
+    pub(crate) fn is_read(&self) -> bool {
+        self.coupling_outputs > 0
+    }
+
     /// Which way the exchange takes.
     pub fn route(&self) -> &'static str {
         self.connection.route()

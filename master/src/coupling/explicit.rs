@@ -84,6 +84,9 @@ impl Explicit {
         parts.prepare_prediction(t, 0.0);
         for (number, input) in parts.layout.inputs.iter().enumerate() {
             let subsystem = &mut parts.subsystems[input.subsystem];
+            if !subsystem.is_read() {
+                continue;
+            }
             let mut over = over(&self.history, 0.0, &mut self.memory);
             input.signal(&mut over, subsystem.prediction_signal(input.place));
             let Some(place) = input.perturbed else {

@@ -137,6 +137,9 @@ impl SemiImplicit {
         parts.prepare_prediction(step.start, length);
         for (number, input) in parts.layout.inputs.iter().enumerate() {
             let subsystem = &mut parts.subsystems[input.subsystem];
+            if !subsystem.is_read() {
+                continue;
+            }
             let mut over = Over {
                 history: &self.history,
                 curve: Curve::Extrapolated,

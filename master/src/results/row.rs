@@ -25,6 +25,8 @@ pub enum Drawn {
     Residual,
     /// Multiplier.
     Multiplier,
+    /// Any output of a scene without joints.
+    Output,
 }
 
 impl Row {
@@ -113,6 +115,9 @@ impl Row {
         if place >= self.first_residual {
             let is_position = (place - self.first_residual).is_multiple_of(self.levels);
             return is_position.then_some(Drawn::Residual);
+        }
+        if self.rows() == 0 && place > 0 {
+            return Some(Drawn::Output);
         }
         self.positions.contains(&place).then_some(Drawn::Motion)
     }

@@ -55,7 +55,7 @@ impl Case {
 }
 
 /// At least one case of every model.
-pub const CASES: [Case; 10] = [
+pub const CASES: [Case; 12] = [
     Case {
         model: "oscillator",
         parameters: &[
@@ -143,6 +143,37 @@ pub const CASES: [Case; 10] = [
     Case::composed("spatial-multibody", SPATIAL_LOOP, false),
     Case::composed("spatial-multibody", SPATIAL_TREE, false),
     Case::composed("spatial-multibody", SPATIAL_TREE, true),
+    Case {
+        model: "dc-motor",
+        parameters: &[
+            ("inertia", 0.083),
+            ("resistance", 0.43),
+            ("inductance", 0.031),
+            ("back_emf", 0.72),
+            ("torque_constant", 0.69),
+            ("friction", 0.057),
+            ("crank", 0.31),
+            ("shaft_x", -0.4),
+            ("shaft_y", 0.6),
+            ("angle0", 1.1),
+            ("rate0", -4.0),
+            ("current0", 1.4),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 7.0,
+    },
+    Case {
+        model: "pi-controller",
+        parameters: &[
+            ("proportional", 5.3),
+            ("integral", 8.1),
+            ("integral0", -0.7),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 7.0,
+    },
 ];
 
 /// Systems with prescribed motion, which changes their energy.

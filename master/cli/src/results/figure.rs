@@ -9,11 +9,12 @@ use super::{RunReport, Trace};
 use crate::commands::CommandError;
 use crate::plot::{Scale, TimePanel, TimePanels, TimeSeries, time_panels};
 
-/// The panels of a scene that names none.
-const USUAL: [(&str, Drawn); 3] = [
+/// The panels of a scene that names none; those without curves are left out.
+const USUAL: [(&str, Drawn); 4] = [
     ("position", Drawn::Motion),
     ("residual", Drawn::Residual),
     ("multiplier", Drawn::Multiplier),
+    ("output", Drawn::Output),
 ];
 
 /// The empty series of the picture, each with the places of its columns in a row.
@@ -46,26 +47,32 @@ pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<(Vec<usize>, Trace)> {
     curves.map(trace).collect()
 }
 
-/// Draws the runs of a scene's cases together, or its only run, to `STEM.svg` and `STEM.png`.
+/// Draws the runs of a scene's cases together, or its only run, to `STEM.svg` and `STEM.png`; a scene that couples and
+/// records nothing has no picture.
 pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), CommandError> {
     let own = scene.output.panels.iter().map(|panel| panel.label.as_str());
     let labels: Vec<&str> = match scene.output.panels[..] {
         [] => USUAL.iter().map(|(label, _)| *label).collect(),
         _ => own.collect(),
     };
-    let panels = labels.iter().enumerate().filter_map(|(panel, label)| {
-        let series = series_of(scene, reports, panel);
-        let y_scale = Scale::Linear;
-        (!series.is_empty()).then(|| TimePanel {
-            y_label: (*label).into(),
-            y_scale,
-            series,
+    let panels: Vec<TimePanel> = { labels.iter().enumerate() }
+        .filter_map(|(panel, label)| {
+            let series = series_of(scene, reports, panel);
+            let y_scale = Scale::Linear;
+            (!series.is_empty()).then(|| TimePanel {
+                y_label: (*label).into(),
+                y_scale,
+                series,
+            })
         })
-    });
+        .collect();
+    if panels.is_empty() {
+        return Ok(());
+    }
     let picture = TimePanels {
         title: Some(scene.name.clone()),
         time_label: "t in s".into(),
-        panels: panels.collect(),
+        panels,
     };
     Ok(time_panels(&picture, stem)?)
 }

@@ -369,11 +369,14 @@ impl<'a> Binder<'a> {
         for (subsystem, range) in layout.ranges.iter_mut().enumerate() {
             let inputs = &mut layout.inputs[start..];
             let own = inputs.partition_point(|input| input.subsystem <= subsystem);
+            // A subsystem whose outputs nobody reads has no response to tell.
+            let is_read = !layout.outputs[subsystem].is_empty();
             let mut perturbed = 0..;
             for (place, input) in inputs[..own].iter_mut().enumerate() {
                 input.place = place;
                 input.perturbed = match input.source {
                     Source::Attitude { .. } => None,
+                    Source::Sum(_) | Source::Load(_) if !is_read => None,
                     Source::Sum(_) | Source::Load(_) => perturbed.next(),
                 };
             }
