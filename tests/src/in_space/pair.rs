@@ -52,6 +52,14 @@ pub struct PairErrors {
     pub gap: f64,
 }
 
+/// Sums over both bodies.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sums {
+    energy: f64,
+    momentum: Vector3<f64>,
+    angular_momentum: Vector3<f64>,
+}
+
 impl Pair {
     /// Bodies with three different moments of inertia each, an offset joint turned against both, and every rate and
     /// coordinate of the joint off zero.
@@ -152,28 +160,27 @@ impl Pair {
         let sums: Vec<_> = (0..exact.len())
             .map(|row| self.sums([&found[0][row], &found[1][row]]))
             .collect();
-        let (energy, momentum, angular) = sums[0];
-        let largest = |change: &dyn Fn(&(f64, Vector3<f64>, Vector3<f64>)) -> f64| {
-            sums.iter().map(change).fold(0.0, f64::max)
-        };
+        let largest = |change: &dyn Fn(&Sums) -> f64| sums.iter().map(change).fold(0.0, f64::max);
+        let first = &sums[0];
         PairErrors {
             position: poses[0][0].max(poses[1][0]),
             attitude: poses[0][1].max(poses[1][1]),
             load: self.load_error(trajectory, &exact),
-            energy: largest(&|now| (now.0 - energy).abs() / energy),
-            momentum: largest(&|now| (now.1 - momentum).norm()),
-            angular_momentum: largest(&|now| (now.2 - angular).norm()),
+            energy: largest(&|now| (now.energy - first.energy).abs() / first.energy),
+            momentum: largest(&|now| (now.momentum - first.momentum).norm()),
+            angular_momentum: largest(&|now| {
+                (now.angular_momentum - first.angular_momentum).norm()
+            }),
             gap: largest_of(trajectory, "joint.residual.position"),
         }
     }
 
-    /// Energy, momentum, angular momentum of both bodies.
-    fn sums(&self, motions: [&BodyMotion; 2]) -> (f64, Vector3<f64>, Vector3<f64>) {
-        let mut sums = (0.0, Vector3::zeros(), Vector3::zeros());
+    fn sums(&self, motions: [&BodyMotion; 2]) -> Sums {
+        let mut sums = Sums::default();
         for (jointed, motion) in self.chain.bodies.iter().zip(motions) {
-            sums.0 += jointed.body.kinetic_energy(motion);
-            sums.1 += jointed.body.momentum(motion);
-            sums.2 += jointed.body.angular_momentum(motion, &ABOUT);
+            sums.energy += jointed.body.kinetic_energy(motion);
+            sums.momentum += jointed.body.momentum(motion);
+            sums.angular_momentum += jointed.body.angular_momentum(motion, &ABOUT);
         }
         sums
     }
