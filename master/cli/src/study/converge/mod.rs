@@ -49,7 +49,7 @@ pub enum Outcome {
         /// Errors against the reference.
         errors: Errors,
         /// What it cost.
-        statistics: Statistics,
+        statistics: Box<Statistics>,
     },
     /// It diverged; why, as a run says it.
     Diverged(String),
@@ -148,7 +148,7 @@ impl Study {
                 })?;
                 let outcome = Outcome::Done {
                     errors: Errors::default(),
-                    statistics,
+                    statistics: Box::new(statistics),
                 };
                 let finest = ConvergeRun {
                     macro_step: finest,
@@ -176,7 +176,7 @@ impl Study {
         let outcome = match run(&self.variant, macro_step, &mut recorder)? {
             Ok(statistics) => Outcome::Done {
                 errors: recorder.errors(),
-                statistics,
+                statistics: Box::new(statistics),
             },
             Err(reason) => Outcome::Diverged(reason),
         };

@@ -53,7 +53,7 @@ fn records(case: &CaseRuns) -> Vec<Record<'_>> {
         let [position, velocity, state, lambda, lambda_mid_step] =
             orders.each_ref().map(|orders| orders[number]);
         let (outcome, statistics) = match &run.outcome {
-            Outcome::Done { statistics, .. } => ("done", Some(statistics)),
+            Outcome::Done { statistics, .. } => ("done", Some(&**statistics)),
             Outcome::Diverged(_) => ("diverged", None),
         };
         let residual =
