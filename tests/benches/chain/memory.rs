@@ -9,7 +9,7 @@ pub fn print_table() {
     println!("\nResident memory of the master in kB\n");
     println!("| links | workers | after 1000 macro steps | after 10000 |");
     println!("|---|---|---|---|");
-    for (links, place) in [(8, Place::Processes), (64, Place::InProcess)] {
+    for (links, place) in [(64, Place::Processes), (64, Place::InProcess)] {
         let settings = ["scene.t_end=2", "coupling.macro_step=1e-4"];
         let mut running = Running::start(links, place, &settings);
         running.steps(1000);
