@@ -64,8 +64,9 @@ fn a_planar_scene() {
     let workshop = run(DOUBLE_PENDULUM, &["--animate"]);
     let page = workshop.read("out/animation.html");
     let film = film(&page);
-    let expected: [(&str, &[&str]); 3] = [
+    let expected: [(&str, &[&str]); 4] = [
         ("link1.tip", &["tip_x", "tip_y", "tip_angle"]),
+        ("link1.centre", &["centre_x", "centre_y", "centre_angle"]),
         ("link2.start", &["start_x", "start_y", "start_angle"]),
         ("link2.end", &["end_x", "end_y", "end_angle"]),
     ];
@@ -73,8 +74,8 @@ fn a_planar_scene() {
     assert_shows(&film, &table, 2, &expected);
     // The end of link 2 sweeps the whole width.
     assert_fine(&film, span(&table["link2.end_x"]));
-    assert_eq!(film["joints"][0]["ends"], serde_json::json!([0, 1]));
-    assert_eq!(film["bodies"], serde_json::json!([[1, 2]]));
+    assert_eq!(film["joints"][0]["ends"], serde_json::json!([0, 2]));
+    assert_eq!(film["bodies"], serde_json::json!([[0, 1], [2, 3]]));
     assert!(page.contains("501 of the 1001 rows"), "{}", &page[..900]);
 }
 
@@ -110,8 +111,8 @@ fn a_joint_is_drawn_where_it_holds() {
         circles.map(centre).collect()
     };
     let apart = |(x, y): (f64, f64), other: (f64, f64)| (x - other.0).hypot(y - other.1);
-    let [tip, start, _] = centres("markers")[..] else {
-        panic!("three markers")
+    let [tip, _, start, _] = centres("markers")[..] else {
+        panic!("four markers")
     };
     let [a, b] = centres("joints")[..] else {
         panic!("one joint")
