@@ -60,7 +60,7 @@ fn mistakes_in_a_description_are_named(serve: Serve) {
     assert_misuse(
         describe(&*calls, "clockwork", BTreeMap::new()),
         "model",
-        &["clockwork", "oscillator, pendulum"],
+        &["clockwork", "oscillator, pendulum, pi-controller"],
     );
     assert_misuse(
         describe(&*calls, "stand", BTreeMap::new()),

@@ -34,8 +34,10 @@ fn describe_names_models_and_capabilities(serve: Serve) {
     assert_eq!(
         names,
         [
+            "dc-motor",
             "oscillator",
             "pendulum",
+            "pi-controller",
             "planar-body",
             "planar-multibody",
             "spatial-body",
@@ -51,7 +53,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             repeats_step_sequence,
             max_input_degree: 7,
             exportable_snapshot: false,
-            joint_loads: !["oscillator", "tank"].contains(&model.name.as_str()),
+            joint_loads: !["oscillator", "pi-controller", "tank"].contains(&model.name.as_str()),
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }
