@@ -290,7 +290,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
     model.capabilities = Some(v1::Capabilities {
         exchange: true,
         repeats_step_sequence: own.repeats_step_sequence,
-        max_input_degree: MAX_NODES as u32 - 1,
+        max_input_degree: Some(MAX_NODES as u32 - 1),
         exportable_snapshot: false,
         joint_loads: own.joint_loads,
     });

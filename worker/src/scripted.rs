@@ -33,6 +33,7 @@ pub struct Scripted {
     acts: BTreeMap<u64, Act>,
     protocol: Option<v1::ProtocolVersion>,
     only_unary: bool,
+    highest_degree: Option<u32>,
 }
 
 impl Scripted {
@@ -44,6 +45,7 @@ impl Scripted {
             acts: BTreeMap::new(),
             protocol: None,
             only_unary: false,
+            highest_degree: None,
         }
     }
 
@@ -56,6 +58,12 @@ impl Scripted {
     /// Says that it speaks `protocol`.
     pub fn speaking(mut self, protocol: v1::ProtocolVersion) -> Self {
         self.protocol = Some(protocol);
+        self
+    }
+
+    /// Takes input polynomials of degree `degree` at most.
+    pub fn taking_degree(mut self, degree: u32) -> Self {
+        self.highest_degree = Some(degree);
         self
     }
 
@@ -72,9 +80,11 @@ impl Contract for Scripted {
         if self.protocol.is_some() {
             reply.protocol = self.protocol;
         }
-        for model in &mut reply.models {
-            if let (true, Some(capabilities)) = (self.only_unary, &mut model.capabilities) {
-                capabilities.exchange = false;
+        let models = reply.models.iter_mut();
+        for capabilities in models.flat_map(|model| &mut model.capabilities) {
+            capabilities.exchange &= !self.only_unary;
+            if self.highest_degree.is_some() {
+                capabilities.max_input_degree = self.highest_degree;
             }
         }
         Ok(reply)

@@ -1,6 +1,7 @@
 //! A run from start to end: the macro step, told by one function.
 
 mod closed;
+mod degrees;
 mod geometry;
 mod initial;
 mod mechanism;

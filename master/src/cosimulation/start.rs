@@ -2,6 +2,7 @@
 
 use linchpin_proto::v1::{self, value::Kind};
 
+use super::degrees::{check_degrees, load_forms};
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
 use super::panels;
@@ -14,12 +15,12 @@ use crate::connection::{Connection, StartError};
 use crate::coupling::columns::Increments;
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::explicit::Explicit;
-use crate::coupling::layout::{Coupled, Layout, LoadForm, MarkedJoint, springs_at};
+use crate::coupling::layout::{Coupled, Layout, MarkedJoint, springs_at};
 use crate::coupling::penalty::{Order, Penalty};
 use crate::coupling::semi_implicit::SemiImplicit;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Loads, Method, Scene};
+use crate::scene::{self, Method, Scene};
 use crate::signal::History;
 use crate::time::{MacroGrid, MacroStep};
 
@@ -59,6 +60,7 @@ impl CoSimulation {
             connections: &connections,
         };
         let layout = layout_of(scene, &coupled)?;
+        check_degrees(scene, &models, &layout)?;
         refuse_mixed_degrees(scene, &layout)?;
         let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
         if options.record_markers {
@@ -188,37 +190,6 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
         }
         _ => Ok(()),
     }
-}
-
-/// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
-const LOAD_DEGREE: usize = 5;
-
-/// How each subsystem takes loads whose direction turns with the bodies.
-fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<LoadForm>, RunError> {
-    let coupling = &scene.coupling;
-    let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
-        let capabilities = model.capabilities.unwrap_or_default();
-        match coupling.loads {
-            Loads::Automatic | Loads::Worker if capabilities.joint_loads => Ok(LoadForm::Joint),
-            Loads::Worker => {
-                let message = format!(
-                    "the model \"{}\" of subsystem \"{}\" cannot evaluate loads of joints",
-                    model.name, written.name
-                );
-                let help = "choose coupling.loads = \"automatic\"";
-                Err(scene
-                    .error("coupling.loads", message, Some(help.into()))
-                    .into())
-            }
-            Loads::Automatic | Loads::Master => Ok(LoadForm::Wrench {
-                degree: match (coupling.degree, coupling.exchanged_degree) {
-                    (0, 0) => 0,
-                    _ => LOAD_DEGREE.min(capabilities.max_input_degree as usize),
-                },
-            }),
-        }
-    };
-    scene.subsystems.iter().zip(models).map(form).collect()
 }
 
 fn initialize_request(

@@ -51,7 +51,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
         let expected = v1::Capabilities {
             exchange: true,
             repeats_step_sequence,
-            max_input_degree: 7,
+            max_input_degree: Some(7),
             exportable_snapshot: false,
             joint_loads: !["oscillator", "pi-controller", "tank"].contains(&model.name.as_str()),
         };

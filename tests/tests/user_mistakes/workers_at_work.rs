@@ -38,6 +38,26 @@ fn a_true_peer_reaches_the_end() {
     assert_eq!(rows(&workshop).len(), 1001);
 }
 
+/// The scene has degree 0; a worker that takes nothing else is asked for degree 2.
+#[test]
+fn a_degree_that_the_worker_cannot_take() {
+    let workshop = workshop(&[("degree = 0", "degree = 2")]);
+    let peer = Peer::scripted(&workshop, |peer| peer.taking_degree(1));
+    let setting = format!("subsystem.mass2.address={}", peer.address());
+    let outcome = workshop.run(&run(&["--set", &setting]));
+    outcome.fails(
+        2,
+        &[
+            "coupling.degree",
+            "\"mass2\"",
+            "degree 1 at most, found 2",
+            "coupling.degree = 1",
+        ],
+    );
+    let (_, outcome) = run_with_peer(|peer| peer.taking_degree(0));
+    outcome.succeeds();
+}
+
 #[test]
 fn a_number_that_is_none() {
     for value in [f64::NAN, f64::INFINITY] {

@@ -2,42 +2,20 @@
 
 use std::sync::Arc;
 
-use linchpin_proto::joint_load::{End, Pose, Reads};
-use linchpin_proto::v1::{self, MarkerKind};
+use linchpin_proto::joint_load::{End, Reads};
 
 use super::exchanged::{Exchanged, PoseVariables, Turning, What};
-use super::input::{DrivenInput, Load, Source, TurningLoad};
+use super::input::{DrivenInput, Source};
+use super::loads::NamedLoad;
 use super::marker::{BoundEnd, Parts};
-use super::{
-    BoundJoint, Coupled, Lack, Layout, LoadForm, MarkedJoint, MarkerLacks, Row, column_name,
-};
+use super::{BoundJoint, Coupled, Lack, Layout, MarkedJoint, MarkerLacks, Row};
 use crate::joint::Level;
-
-/// Components of force and moment that a marker of a kind takes, in the order of its load inputs: 0 to 2 the force, 3 to 5
-/// the moment.
-fn load_components(kind: MarkerKind) -> &'static [usize] {
-    match kind {
-        MarkerKind::Planar => &[0, 1, 5],
-        MarkerKind::Spatial => &[0, 1, 2, 3, 4, 5],
-        MarkerKind::Scalar | MarkerKind::Unspecified => &[0],
-    }
-}
 
 /// A layout in the making.
 pub(super) struct Binder<'a> {
     pub(super) layout: Layout,
-    coupled: &'a Coupled<'a>,
-    loads: Vec<NamedLoad>,
-}
-
-/// A joint load whose signals are known by name.
-struct NamedLoad {
-    subsystem: usize,
-    message: v1::JointLoad,
-    multiplier: String,
-    position: Vec<String>,
-    rotation: Vec<String>,
-    attitude: Vec<String>,
+    pub(super) coupled: &'a Coupled<'a>,
+    pub(super) loads: Vec<NamedLoad>,
 }
 
 impl Layout {
@@ -113,138 +91,8 @@ impl<'a> Binder<'a> {
         Ok(())
     }
 
-    /// Lets multiplier number `row` load the marker at one end.
-    pub(super) fn load_end(&mut self, row: usize, end: End) -> Result<(), MarkerLacks> {
-        let Row { joint, condition } = self.layout.rows[row];
-        let marked = &self.coupled.joints[joint];
-        let (subsystem, marker) = &marked.ends[end as usize];
-        let Some(law) = marked.joint.condition(condition).law() else {
-            let sign = match end {
-                End::A => 1.0,
-                End::B => -1.0,
-            };
-            let name = self.load_input(joint, end, 0)?;
-            self.drive(*subsystem, &name, (row, sign));
-            return Ok(());
-        };
-        let depends = End::BOTH.map(|of| law.load_reads(end, of));
-        if depends == [Reads::default(); 2] {
-            let unit = law.unit_wrench(end, &[Pose::default(); 2]);
-            for (place, &component) in load_components(marker.kind()).iter().enumerate() {
-                let factor = unit.component(component);
-                if factor != 0.0 {
-                    let name = self.load_input(joint, end, place)?;
-                    self.drive(*subsystem, &name, (row, factor));
-                }
-            }
-            return Ok(());
-        }
-        match self.coupled.forms[*subsystem] {
-            LoadForm::Joint => self.joint_load(row, end, depends[end.other() as usize]),
-            LoadForm::Wrench { degree } => self.turning_load(row, end, depends, degree),
-        }
-    }
-
-    /// The name of an input that takes part of a load.
-    fn load_input(&self, joint: usize, end: End, place: usize) -> Result<String, MarkerLacks> {
-        let (_, marker) = &self.coupled.joints[joint].ends[end as usize];
-        let name = marker.load.get(place).cloned();
-        name.ok_or(MarkerLacks {
-            joint,
-            end: end as usize,
-            what: Lack::Load,
-        })
-    }
-
-    /// A load that the subsystem evaluates itself, S1's form.
-    fn joint_load(&mut self, row: usize, end: End, partner: Reads) -> Result<(), MarkerLacks> {
-        let Row { joint, condition } = self.layout.rows[row];
-        let marked = &self.coupled.joints[joint];
-        let (subsystem, marker) = &marked.ends[end as usize];
-        let Some(law) = marked.joint.condition(condition).law() else {
-            return Ok(());
-        };
-        let last = load_components(marker.kind()).len() - 1;
-        self.load_input(joint, end, last)?;
-        let poses = self.exchange_pose(joint, end.other(), partner)?;
-        let multiplier = column_name(&marked.name, "lambda", marked.joint.name(condition));
-        self.drive_joint(*subsystem, &multiplier, Source::Sum(vec![(row, 1.0)]));
-        let mut named = NamedLoad {
-            subsystem: *subsystem,
-            message: law.to_message(&marker.name, end),
-            multiplier,
-            position: Vec::new(),
-            rotation: Vec::new(),
-            attitude: Vec::new(),
-        };
-        for &variable in &poses.position {
-            named
-                .position
-                .push(self.drive_variable(*subsystem, variable));
-        }
-        match poses.turning {
-            Turning::None => {}
-            Turning::Angle(angle) => named.rotation.push(self.drive_variable(*subsystem, angle)),
-            Turning::Vector { first, attitude } => {
-                for variable in first..first + 3 {
-                    named
-                        .rotation
-                        .push(self.drive_variable(*subsystem, variable));
-                }
-                for part in 0..4 {
-                    let name = format!("attitude{attitude}.{part}");
-                    self.drive_joint(*subsystem, &name, Source::Attitude { attitude, part });
-                    named.attitude.push(name);
-                }
-            }
-        }
-        self.loads.push(named);
-        Ok(())
-    }
-
-    /// A load that the subsystem takes as force and moment.
-    fn turning_load(
-        &mut self,
-        row: usize,
-        end: End,
-        depends: [Reads; 2],
-        degree: usize,
-    ) -> Result<(), MarkerLacks> {
-        let Row { joint, condition } = self.layout.rows[row];
-        let marked = &self.coupled.joints[joint];
-        let (subsystem, marker) = &marked.ends[end as usize];
-        let Some(&law) = marked.joint.condition(condition).law() else {
-            return Ok(());
-        };
-        let poses = [
-            self.exchange_pose(joint, End::A, depends[0])?,
-            self.exchange_pose(joint, End::B, depends[1])?,
-        ];
-        let acts = law.acts_by(end);
-        for (place, &component) in load_components(marker.kind()).iter().enumerate() {
-            let is_there = if component < 3 {
-                acts.force
-            } else {
-                acts.moment
-            };
-            if !is_there {
-                continue;
-            }
-            let turning = TurningLoad {
-                multiplier: row,
-                law,
-                end,
-                poses: poses.clone(),
-            };
-            let name = self.load_input(joint, end, place)?;
-            let input = self.input(*subsystem, &name, false);
-            input.source.add_turning(component, degree, turning);
-        }
-        Ok(())
-    }
-
     /// Exchanges what is read of the pose of a joint's marker.
-    fn exchange_pose(
+    pub(super) fn exchange_pose(
         &mut self,
         joint: usize,
         end: End,
@@ -328,17 +176,22 @@ impl<'a> Binder<'a> {
     }
 
     /// Sends a variable to a subsystem as a joint input and tells its name.
-    fn drive_variable(&mut self, subsystem: usize, variable: usize) -> String {
+    pub(super) fn drive_variable(&mut self, subsystem: usize, variable: usize) -> String {
         let name = format!("variable{variable}");
         self.drive_joint(subsystem, &name, Source::Sum(vec![(variable, 1.0)]));
         name
     }
 
-    fn drive_joint(&mut self, subsystem: usize, name: &str, source: Source) {
+    pub(super) fn drive_joint(&mut self, subsystem: usize, name: &str, source: Source) {
         self.input(subsystem, name, true).source = source;
     }
 
-    fn input(&mut self, subsystem: usize, name: &str, is_joint_input: bool) -> &mut DrivenInput {
+    pub(super) fn input(
+        &mut self,
+        subsystem: usize,
+        name: &str,
+        is_joint_input: bool,
+    ) -> &mut DrivenInput {
         let inputs = &mut self.layout.inputs;
         let known = inputs.iter().position(|input| {
             input.subsystem == subsystem
@@ -388,47 +241,6 @@ impl<'a> Binder<'a> {
             layout.joint_loads[load.subsystem].push(message);
         }
         layout
-    }
-}
-
-impl NamedLoad {
-    fn message(&self, inputs: &[DrivenInput]) -> v1::JointLoad {
-        let place = |name: &String| {
-            let mut own = inputs.iter().filter(|input| input.is_joint_input);
-            own.find(|input| &input.name == name)
-                .map_or(0, |input| input.place as u32)
-        };
-        v1::JointLoad {
-            multiplier: place(&self.multiplier),
-            partner_position: self.position.iter().map(place).collect(),
-            partner_rotation: self.rotation.iter().map(place).collect(),
-            partner_attitude: self.attitude.iter().map(place).collect(),
-            ..self.message.clone()
-        }
-    }
-}
-
-impl Source {
-    fn add_fixed(&mut self, term: (usize, f64)) {
-        match self {
-            Self::Sum(combination) => combination.push(term),
-            Self::Load(load) => load.fixed.push(term),
-            Self::Attitude { .. } => {}
-        }
-    }
-
-    fn add_turning(&mut self, component: usize, degree: usize, turning: TurningLoad) {
-        if let Self::Sum(fixed) = self {
-            *self = Self::Load(Box::new(Load {
-                component,
-                fixed: std::mem::take(fixed),
-                turning: Vec::new(),
-                degree,
-            }));
-        }
-        if let Self::Load(load) = self {
-            load.turning.push(turning);
-        }
     }
 }
 

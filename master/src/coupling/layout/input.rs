@@ -68,6 +68,32 @@ pub struct TurningLoad {
     pub poses: [PoseVariables; 2],
 }
 
+impl Source {
+    /// Adds a term of fixed factor.
+    pub(super) fn add_fixed(&mut self, term: (usize, f64)) {
+        match self {
+            Self::Sum(combination) => combination.push(term),
+            Self::Load(load) => load.fixed.push(term),
+            Self::Attitude { .. } => {}
+        }
+    }
+
+    /// Adds a load whose direction turns; the input then is a load of this component.
+    pub(super) fn add_turning(&mut self, component: usize, degree: usize, turning: TurningLoad) {
+        if let Self::Sum(fixed) = self {
+            *self = Self::Load(Box::new(Load {
+                component,
+                fixed: std::mem::take(fixed),
+                turning: Vec::new(),
+                degree,
+            }));
+        }
+        if let Self::Load(load) = self {
+            load.turning.push(turning);
+        }
+    }
+}
+
 impl DrivenInput {
     /// Whether the input depends on multipliers, the first `rows` variables.
     pub fn drives_load(&self, rows: usize) -> bool {

@@ -7,6 +7,7 @@
 mod bind;
 pub mod exchanged;
 pub mod input;
+mod loads;
 pub mod marker;
 mod springs;
 
