@@ -54,7 +54,7 @@ fn a_degree_that_the_worker_cannot_take() {
             "coupling.degree = 1",
         ],
     );
-    let (_, outcome) = run_with_peer(|peer| peer.taking_degree(0));
+    let (_workshop, outcome) = run_with_peer(|peer| peer.taking_degree(0));
     outcome.succeeds();
 }
 
