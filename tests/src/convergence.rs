@@ -67,6 +67,31 @@ pub fn slope_of(points: impl Iterator<Item = (f64, f64)>) -> f64 {
     slope(&points)
 }
 
+/// Order of each of several errors over all macro steps.
+pub fn orders_of<const N: usize>(steps: &[f64], errors: &[[f64; N]]) -> [f64; N] {
+    std::array::from_fn(|of| {
+        let points = steps.iter().zip(errors);
+        slope_of(points.map(|(h, errors)| (*h, errors[of])))
+    })
+}
+
+/// Asserts that no order is lower than `least` by more than 0.15; prints all errors.
+pub fn assert_least_orders<const N: usize>(
+    case: &str,
+    steps: &[f64],
+    errors: &[[f64; N]],
+    least: [f64; N],
+) {
+    let orders = orders_of(steps, errors);
+    let report = format!("{case}: {orders:.2?}, least {least:?}\n{errors:?}");
+    println!("{report}");
+    let mut pairs = orders.iter().zip(least);
+    assert!(
+        pairs.all(|(order, least)| *order > least - 0.15),
+        "{report}"
+    );
+}
+
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

@@ -5,7 +5,7 @@
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
 use linchpin_models::reference::DoublePendulum;
-use linchpin_tests::convergence::slope_of;
+use linchpin_tests::convergence::orders_of;
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -87,13 +87,7 @@ fn orders_of_convergence() {
     let mut wrong = 0;
     for (coupling, expected) in cases {
         let of_steps = STEPS.map(|h| errors(&trajectory(coupling, h)));
-        let orders = [0, 1, 2].map(|of| {
-            let points = STEPS
-                .iter()
-                .zip(&of_steps)
-                .map(|(h, errors)| (*h, errors[of]));
-            slope_of(points)
-        });
+        let orders = orders_of(&STEPS, &of_steps);
         let is_wrong = orders
             .iter()
             .zip(expected)

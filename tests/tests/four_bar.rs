@@ -7,7 +7,7 @@ use linchpin_master::CoSimulation;
 use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
 use linchpin_models::reference::{Bar, FourBar, FourBarMotion, Shake, Side};
-use linchpin_tests::convergence::slope_of;
+use linchpin_tests::convergence::assert_least_orders;
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -133,17 +133,7 @@ fn assert_orders(linkage: &FourBar, others: &[&str]) {
             let coupling = format!("{coupling} macro_step={h}");
             errors(&run(&scene(&coupling, others), Place::InProcess), linkage)
         });
-        let orders: [f64; 4] = std::array::from_fn(|of| {
-            let points = STEPS.iter().zip(&errors);
-            slope_of(points.map(|(h, errors)| (*h, errors[of])))
-        });
-        let report = format!("{coupling}: {orders:.2?}, least {least:?}\n{errors:?}");
-        println!("{report}");
-        let mut pairs = orders.iter().zip(least);
-        assert!(
-            pairs.all(|(order, least)| *order > least - 0.15),
-            "{report}"
-        );
+        assert_least_orders(coupling, &STEPS, &errors, least);
     }
 }
 

@@ -6,7 +6,7 @@
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
 use linchpin_models::reference::SliderCrank;
-use linchpin_tests::convergence::slope_of;
+use linchpin_tests::convergence::{orders_of, slope_of};
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -103,10 +103,7 @@ fn orders_of_convergence() {
     let mut wrong = 0;
     for (coupling, expected) in cases {
         let of_steps = STEPS.map(|h| errors(&trajectory(coupling, h)));
-        let orders = [0, 1, 2].map(|of| {
-            let runs = STEPS.iter().zip(&of_steps);
-            slope_of(runs.map(|(h, errors)| (*h, errors[of])))
-        });
+        let orders = orders_of(&STEPS, &of_steps);
         let mut pairs = orders.iter().zip(expected);
         let is_wrong = pairs.any(|(order, expected)| (order - expected).abs() > 0.15);
         wrong += usize::from(is_wrong);

@@ -10,7 +10,7 @@ use linchpin_master::scene::Scene;
 use linchpin_models::reference::{
     CompositeJoint, Gimbal, RigidBody, SpatialChain, SpatialChainMotion,
 };
-use linchpin_tests::convergence::slope_of;
+use linchpin_tests::convergence::assert_least_orders;
 use linchpin_tests::in_space::compare::{Loaded, motions, pose_errors};
 use linchpin_tests::in_space::joints::{self, unit};
 use linchpin_tests::runs::{Trajectory, run};
@@ -154,17 +154,7 @@ fn assert_orders(mechanism: &Mechanism) {
             let scene = mechanism.scene(coupling, h);
             mechanism.errors(&run(&scene, Place::InProcess))
         });
-        let orders: [f64; 4] = std::array::from_fn(|of| {
-            let points = steps.iter().zip(&errors);
-            slope_of(points.map(|(h, errors)| (*h, errors[of])))
-        });
-        let report = format!("{coupling}: {orders:.2?}, least {least:?}\n{errors:?}");
-        println!("{report}");
-        let mut pairs = orders.iter().zip(least);
-        assert!(
-            pairs.all(|(order, least)| *order > least - 0.15),
-            "{report}"
-        );
+        assert_least_orders(coupling, &steps, &errors, least);
     }
 }
 

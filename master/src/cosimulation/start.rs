@@ -12,7 +12,6 @@ use super::tie::{
 };
 use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use crate::connection::{Connection, StartError};
-use crate::coupling::columns::Increments;
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::{Coupled, Layout, MarkedJoint, springs_at};
@@ -257,7 +256,6 @@ fn begin(
     grid: &MacroGrid,
 ) -> Result<Scheme, RunError> {
     let coupling = &scene.coupling;
-    let increments = Increments(coupling.increment);
     let InitialState {
         variables: values,
         attitudes,
@@ -270,7 +268,7 @@ fn begin(
         Method::Weighted { a, b, .. } => Condition::Weighted { a, b },
         Method::Explicit { mu } => {
             let history = History::new(variables, &values, attitudes);
-            let mut method = Explicit::new(mu, increments, history, parts);
+            let mut method = Explicit::new(mu, coupling.increment, history, parts);
             method.begin(parts, first_step(grid))?;
             return Ok(Scheme::Explicit(method));
         }
@@ -293,7 +291,7 @@ fn begin(
         Some(values) => History::established(variables, coupling.macro_step, values, attitudes),
         None => History::new(variables, &values, attitudes),
     };
-    let mut method = SemiImplicit::new(condition, increments, history, parts);
+    let mut method = SemiImplicit::new(condition, coupling.increment, history, parts);
     method.begin(parts, first_step(grid))?;
     Ok(Scheme::SemiImplicit(method))
 }

@@ -1,8 +1,9 @@
 //! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
 
-use super::layout::Layout;
+use super::layout::{Layout, Over};
 use crate::cosimulation::Parts;
 use crate::scene::Increment;
+use crate::signal::{Curve, History};
 
 /// Relative increment when it is chosen automatically. Loads enter nearly linearly, so a large one costs no accuracy
 /// and stands above the noise of a solver with step-size control.
@@ -14,10 +15,6 @@ const ABOVE_TOLERANCE: f64 = 1e3;
 /// Relative increment of an exchanged variable when it is chosen automatically: its influence is not linear.
 const AUTOMATIC_EXCHANGED: f64 = 1e-6;
 
-/// Which increments the columns are formed with.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Increments(pub Increment);
-
 /// The columns of all driven inputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns {
@@ -27,7 +24,7 @@ pub struct Columns {
 
 impl Columns {
     /// One column for each driven input of `layout`.
-    pub fn new(Increments(rule): Increments, layout: &Layout) -> Self {
+    pub fn new(rule: Increment, layout: &Layout) -> Self {
         let column = |input: &super::layout::DrivenInput| Column {
             is_load: input.drives_load(layout.rows.len()),
             ..Column::default()
@@ -43,11 +40,39 @@ impl Columns {
         &self.columns
     }
 
-    /// Chooses the increment of input number `input`, which is predicted as `value`, and returns it.
-    pub fn choose_increment(&mut self, input: usize, value: f64, tolerance: Option<f64>) -> f64 {
-        let column = &mut self.columns[input];
-        column.choose_increment(self.rule, value, tolerance);
-        column.increment
+    /// Fills in the look-ahead over `length` that was prepared: the extrapolation of every input (S1 eq. 56), and for each
+    /// perturbed one the interpolation through its raised end value (59). `ends` are the extrapolated values of all
+    /// variables at the end, `memory` has room for as many.
+    pub fn request(
+        &mut self,
+        parts: &mut Parts,
+        history: &History,
+        ends: &[f64],
+        length: f64,
+        memory: &mut [f64],
+    ) {
+        let mut over = Over {
+            history,
+            curve: Curve::Extrapolated,
+            step: length,
+            memory,
+        };
+        for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
+            let subsystem = &mut parts.subsystems[input.subsystem];
+            if !subsystem.is_read() {
+                continue;
+            }
+            over.curve = Curve::Extrapolated;
+            input.signal(&mut over, subsystem.prediction_signal(input.place));
+            let Some(place) = input.perturbed else {
+                continue;
+            };
+            let end = input.value(ends, history.attitudes());
+            column.choose_increment(self.rule, end, subsystem.tolerance);
+            over.curve = Curve::Interpolated(ends);
+            let raised = subsystem.perturbed_signal(place, input.place);
+            input.raised_signal(&mut over, column.increment, raised);
+        }
     }
 
     /// Takes the difference quotients of the last answers of all workers.

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::columns::{Columns, Increments};
+use super::columns::Columns;
 use super::condition::{Condition, check_finite};
 use super::layout::Over;
 use super::solve::LinearSolver;
@@ -10,6 +10,7 @@ use super::system::{Point, System};
 use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::results::Verdict;
+use crate::scene::Increment;
 use crate::signal::{Curve, History};
 use crate::time::MacroStep;
 
@@ -30,7 +31,7 @@ pub struct Explicit {
 
 impl Explicit {
     /// The method with time constant `mu` (s), from trial values of the coupling variables.
-    pub fn new(mu: f64, increments: Increments, history: History, parts: &Parts) -> Self {
+    pub fn new(mu: f64, increment: Increment, history: History, parts: &Parts) -> Self {
         let size = parts.layout.variables();
         let system = System::new(&parts.layout);
         Self {
@@ -43,7 +44,7 @@ impl Explicit {
             values: history.newest().to_vec(),
             history,
             memory: vec![0.0; size],
-            columns: Columns::new(increments, &parts.layout),
+            columns: Columns::new(increment, &parts.layout),
             solver: LinearSolver::new(system.pattern()),
             system,
         }
@@ -64,7 +65,13 @@ impl Explicit {
     /// One macro step: advance with the multipliers of its start, evaluate its end, solve there.
     pub fn macro_step(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Outcome, RunError> {
         parts.prepare_advance(step);
-        let mut over = over(&self.history, step.length, &mut self.memory);
+        // All variables are held: their polynomials have degree 0.
+        let mut over = Over {
+            history: &self.history,
+            curve: Curve::Extrapolated,
+            step: step.length,
+            memory: &mut self.memory,
+        };
         for input in &parts.layout.inputs {
             let subsystem = &mut parts.subsystems[input.subsystem];
             input.signal(&mut over, subsystem.advance_signal(input.place));
@@ -82,23 +89,9 @@ impl Explicit {
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
         parts.prepare_prediction(t, 0.0);
-        for (number, input) in parts.layout.inputs.iter().enumerate() {
-            let subsystem = &mut parts.subsystems[input.subsystem];
-            if !subsystem.is_read() {
-                continue;
-            }
-            let mut over = over(&self.history, 0.0, &mut self.memory);
-            input.signal(&mut over, subsystem.prediction_signal(input.place));
-            let Some(place) = input.perturbed else {
-                continue;
-            };
-            let trial = input.value(self.history.newest(), self.history.attitudes());
-            let increment = self
-                .columns
-                .choose_increment(number, trial, subsystem.tolerance);
-            let raised = subsystem.perturbed_signal(place, input.place);
-            input.raised_signal(&mut over, increment, raised);
-        }
+        let (history, trial) = (&self.history, self.history.newest());
+        self.columns
+            .request(parts, history, trial, 0.0, &mut self.memory);
     }
 
     fn solve(&mut self, parts: &Parts, step: MacroStep, length: f64) -> Result<(), RunError> {
@@ -120,15 +113,5 @@ impl Explicit {
         check_finite(&self.values, parts, step)?;
         self.history.push(length, &self.values);
         Ok(())
-    }
-}
-
-/// All variables are held.
-fn over<'a>(history: &'a History, step: f64, memory: &'a mut [f64]) -> Over<'a> {
-    Over {
-        history,
-        curve: Curve::Extrapolated,
-        step,
-        memory,
     }
 }

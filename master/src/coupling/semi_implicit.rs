@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::columns::{Columns, Increments};
+use super::columns::Columns;
 use super::condition::{Condition, check_finite};
 use super::layout::Over;
 use super::solve::LinearSolver;
@@ -11,6 +11,7 @@ use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::results::{Defect, Verdict};
+use crate::scene::Increment;
 use crate::signal::{Curve, History};
 use crate::time::MacroStep;
 
@@ -34,7 +35,7 @@ impl SemiImplicit {
     /// The method with coupling variables `history` up to the first macro point.
     pub fn new(
         condition: Condition,
-        increments: Increments,
+        increment: Increment,
         history: History,
         parts: &Parts,
     ) -> Self {
@@ -51,7 +52,7 @@ impl SemiImplicit {
             promised: zeros(),
             shift: zeros(),
             memory: zeros(),
-            columns: Columns::new(increments, &parts.layout),
+            columns: Columns::new(increment, &parts.layout),
             solver: LinearSolver::new(system.pattern()),
             system,
         }
@@ -135,29 +136,9 @@ impl SemiImplicit {
         }
         check_finite(&self.predicted, parts, step)?;
         parts.prepare_prediction(step.start, length);
-        for (number, input) in parts.layout.inputs.iter().enumerate() {
-            let subsystem = &mut parts.subsystems[input.subsystem];
-            if !subsystem.is_read() {
-                continue;
-            }
-            let mut over = Over {
-                history: &self.history,
-                curve: Curve::Extrapolated,
-                step: length,
-                memory: &mut self.memory,
-            };
-            input.signal(&mut over, subsystem.prediction_signal(input.place));
-            let Some(place) = input.perturbed else {
-                continue;
-            };
-            let end = input.value(&self.predicted, self.history.attitudes());
-            let increment = self
-                .columns
-                .choose_increment(number, end, subsystem.tolerance);
-            over.curve = Curve::Interpolated(&self.predicted);
-            let raised = subsystem.perturbed_signal(place, input.place);
-            input.raised_signal(&mut over, increment, raised);
-        }
+        let (history, ends) = (&self.history, &self.predicted);
+        self.columns
+            .request(parts, history, ends, length, &mut self.memory);
         Ok(())
     }
 
@@ -167,14 +148,15 @@ impl SemiImplicit {
             .shift(Level::Position, &self.change, &mut self.shift);
         let corrected = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
         let mut defect = Defect::default();
-        for (number, row) in parts.layout.rows.iter().enumerate() {
-            let motion = motion_of(&parts.layout, row.joint, corrected);
-            let condition = parts.layout.joints[row.joint]
-                .joint
-                .condition(row.condition);
-            let found = condition.value(Level::Position, &motion);
-            let extent = condition.extent(Level::Position, &motion);
-            defect.add(self.promised[number], self.shift[number], found, extent);
+        let mut terms = self.promised.iter().zip(&self.shift);
+        for (number, joint) in parts.layout.joints.iter().enumerate() {
+            let motion = motion_of(&parts.layout, number, corrected);
+            let rows = joint.joint.conditions().zip(&mut terms);
+            for (condition, (promised, shift)) in rows {
+                let found = condition.value(Level::Position, &motion);
+                let extent = condition.extent(Level::Position, &motion);
+                defect.add(*promised, *shift, found, extent);
+            }
         }
         defect.verdict()
     }

@@ -69,7 +69,8 @@ impl System {
         &self.residuals[level as usize]
     }
 
-    /// Conditions and Jacobians at `point`.
+    /// Conditions and Jacobians at `point`. `outputs(s)` are the coupling outputs of subsystem `s`, `columns` belong to the
+    /// inputs of `layout`.
     pub fn assemble<'a>(
         &mut self,
         layout: &Layout,
@@ -77,22 +78,24 @@ impl System {
         columns: &[Column],
         point: Point<'_>,
     ) {
+        self.motions.clear();
+        let joints = 0..layout.joints.len();
+        self.motions
+            .extend(joints.map(|joint| motion_of(layout, joint, outputs)));
         self.assemble_residuals(layout, outputs, point);
         self.assemble_jacobians(layout, outputs, columns, point);
     }
 
-    /// Evaluates the conditions at `point`. `outputs(s)` are the coupling outputs of subsystem `s`.
-    pub fn assemble_residuals<'a>(
+    fn assemble_residuals<'a>(
         &mut self,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
         point: Point<'_>,
     ) {
         let mut row = 0;
-        for (number, joint) in layout.joints.iter().enumerate() {
-            let motion = motion_of(layout, number, outputs);
+        for (joint, motion) in layout.joints.iter().zip(&self.motions) {
             for condition in joint.joint.conditions() {
-                let values = condition.values(self.level, &motion);
+                let values = condition.values(self.level, motion);
                 for &level in self.level.up_to() {
                     self.residuals[level as usize][row] = values[level as usize];
                 }
@@ -111,8 +114,8 @@ impl System {
     }
 
     /// Chain rule of S1 eq. (67): analytic derivatives of the joints times the workers' columns times the derivatives of the
-    /// inputs with respect to the coupling variables. `columns` belong to the inputs of `layout`.
-    pub fn assemble_jacobians<'a>(
+    /// inputs with respect to the coupling variables.
+    fn assemble_jacobians<'a>(
         &mut self,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
@@ -122,13 +125,8 @@ impl System {
         for &level in self.level.up_to() {
             self.jacobians[level as usize].fill(0.0);
         }
-        self.motions.clear();
-        let joints = 0..layout.joints.len();
-        self.motions
-            .extend(joints.map(|joint| motion_of(layout, joint, outputs)));
         self.differentiate_inputs(layout, point);
-        let mut slot = 0;
-        slot = self.add_joints(layout, outputs, columns, slot);
+        let slot = self.add_joints(layout, outputs, columns);
         self.add_exchanged(layout, outputs, columns, point, slot);
     }
 
@@ -148,8 +146,8 @@ impl System {
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64],
         columns: &[Column],
-        mut slot: usize,
     ) -> usize {
+        let mut slot = 0;
         for (number, joint) in layout.joints.iter().enumerate() {
             for end in End::BOTH {
                 let bound = &joint.ends[end as usize];

@@ -1,6 +1,6 @@
 //! Two points that coincide, component by component.
 
-use linchpin_proto::joint_load::{End, JointLaw, Law, Reads};
+use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
 use super::Condition;
@@ -34,10 +34,6 @@ impl AtPoint {
 impl Condition for AtPoint {
     fn law(&self) -> Option<&JointLaw> {
         Some(&self.law)
-    }
-
-    fn reads(&self, end: End) -> Reads {
-        self.law.condition_reads(end)
     }
 
     fn factors(&self, motion: &Motion) -> [Jet; 2] {

@@ -1,6 +1,6 @@
 //! A point that stays in a plane.
 
-use linchpin_proto::joint_load::{End, JointLaw, Law, Reads};
+use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
 use super::Condition;
@@ -33,10 +33,6 @@ impl InPlane {
 impl Condition for InPlane {
     fn law(&self) -> Option<&JointLaw> {
         Some(&self.law)
-    }
-
-    fn reads(&self, end: End) -> Reads {
-        self.law.condition_reads(end)
     }
 
     fn factors(&self, motion: &Motion) -> [Jet; 2] {

@@ -20,7 +20,7 @@ pub use motion::{MarkerChange, MarkerMotion, Motion};
 pub use perpendicular::Perpendicular;
 pub use rigid_link::RigidLink;
 
-use linchpin_proto::joint_load::{JointLaw, Reads};
+use linchpin_proto::joint_load::{JointLaw, Law, Reads};
 use motion::Jet;
 use nalgebra::Vector3;
 
@@ -69,7 +69,13 @@ pub trait Condition: Send + Sync {
     fn law(&self) -> Option<&JointLaw>;
 
     /// What the condition reads of the marker at `end`.
-    fn reads(&self, end: End) -> Reads;
+    fn reads(&self, end: End) -> Reads {
+        let of_link = Reads {
+            position: true,
+            rotation: false,
+        };
+        self.law().map_or(of_link, |law| law.condition_reads(end))
+    }
 
     /// `u` and `w` with their time derivatives.
     fn factors(&self, motion: &Motion) -> [Jet; 2];
@@ -129,7 +135,8 @@ pub trait Condition: Send + Sync {
 
     /// Whether `g` is a length (m); otherwise it is a number.
     fn is_length(&self) -> bool {
-        true
+        let law = self.law().map(|law| law.law);
+        !matches!(law, Some(Law::Perpendicular { .. }))
     }
 }
 

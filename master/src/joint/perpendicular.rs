@@ -1,6 +1,6 @@
 //! Two axes at right angles.
 
-use linchpin_proto::joint_load::{End, JointLaw, Law, Reads};
+use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
 use super::Condition;
@@ -38,10 +38,6 @@ impl Condition for Perpendicular {
         Some(&self.law)
     }
 
-    fn reads(&self, end: End) -> Reads {
-        self.law.condition_reads(end)
-    }
-
     fn factors(&self, [a, b]: &Motion) -> [Jet; 2] {
         [a.carried(&self.axes[0]), b.carried(&self.axes[1])]
     }
@@ -51,9 +47,5 @@ impl Condition for Perpendicular {
         let own = end as usize;
         changes[own] = motion[own].carried_change(&self.axes[own], change);
         changes
-    }
-
-    fn is_length(&self) -> bool {
-        false
     }
 }

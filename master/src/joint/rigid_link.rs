@@ -1,6 +1,6 @@
 //! Two masses on one axis that keep together.
 
-use linchpin_proto::joint_load::{End, JointLaw, Reads};
+use linchpin_proto::joint_load::{End, JointLaw};
 use nalgebra::Vector3;
 
 use super::Condition;
@@ -16,13 +16,6 @@ pub struct RigidLink;
 impl Condition for RigidLink {
     fn law(&self) -> Option<&JointLaw> {
         None
-    }
-
-    fn reads(&self, _: End) -> Reads {
-        Reads {
-            position: true,
-            rotation: false,
-        }
     }
 
     fn factors(&self, [a, b]: &Motion) -> [Jet; 2] {

@@ -1,9 +1,9 @@
 //! Reads `[[connection]]`.
 
 use super::error_kind::SceneErrorKind;
-use super::joint::find_subsystem;
 use super::names::Registry;
-use super::reader::{Field, Problems, Section};
+use super::reader::{Problems, Section};
+use super::reference::read_variable;
 use super::resolved::Connection;
 
 const KEYS: [&str; 3] = ["name", "from", "to"];
@@ -19,11 +19,11 @@ pub(super) fn read(
         .and_then(|field| field.name(problems));
     let from = section
         .require("from", "from = \"crank.rate\"", problems)
-        .and_then(|field| read_side(&field, "SUBSYSTEM.OUTPUT", subsystems, problems));
+        .and_then(|field| read_variable(&field, "SUBSYSTEM.OUTPUT", subsystems, problems));
     let to_field = section.require("to", "to = \"controller.speed\"", problems);
     let to = to_field
         .as_ref()
-        .and_then(|field| read_side(field, "SUBSYSTEM.INPUT", subsystems, problems));
+        .and_then(|field| read_variable(field, "SUBSYSTEM.INPUT", subsystems, problems));
     let connection = Connection {
         name: name?.to_owned(),
         from: from?,
@@ -38,28 +38,4 @@ pub(super) fn read(
         return None;
     }
     Some(connection)
-}
-
-fn read_side(
-    field: &Field<'_>,
-    allowed: &'static str,
-    subsystems: &Registry<'_>,
-    problems: &mut Problems<'_>,
-) -> Option<(usize, String)> {
-    let text = field.text(problems)?;
-    match text.split_once('.') {
-        Some((name, variable)) if !variable.is_empty() => {
-            let subsystem = find_subsystem(name, field, subsystems, problems)?;
-            Some((subsystem, variable.to_owned()))
-        }
-        _ => {
-            let kind = SceneErrorKind::InvalidReference {
-                key: field.key.clone(),
-                found: text.to_owned(),
-                allowed,
-            };
-            field.report(kind, problems);
-            None
-        }
-    }
 }

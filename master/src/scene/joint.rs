@@ -1,9 +1,10 @@
 //! Reads `[[joint]]`.
 
-use super::error_kind::{Names, SceneErrorKind};
+use super::error_kind::SceneErrorKind;
 use super::names::Registry;
-use super::nearest::nearest;
 use super::reader::{FINITE, Field, Problems, Section};
+use super::reference::find_subsystem;
+use super::resolve::collect;
 use super::resolved::{Geometry, Joint, JointKind, Side};
 use super::written::Value;
 
@@ -102,11 +103,7 @@ fn read_geometry(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<G
 
 fn read_vector(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
     let components = field.items("a list of numbers such as [0.5, 0.0]", problems)?;
-    let numbers = components
-        .iter()
-        .map(|component| component.number(&FINITE, problems));
-    let numbers: Vec<Option<f64>> = numbers.collect();
-    numbers.into_iter().collect()
+    collect(&components, |component| component.number(&FINITE, problems))
 }
 
 /// One number, or a list of them.
@@ -115,10 +112,7 @@ fn read_multipliers(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Ve
         return field.number(&FINITE, problems).map(|number| vec![number]);
     }
     let fields = field.items("a number or a list of numbers", problems)?;
-    fields
-        .iter()
-        .map(|field| field.number(&FINITE, problems))
-        .collect()
+    collect(&fields, |field| field.number(&FINITE, problems))
 }
 
 fn read_side(
@@ -144,25 +138,4 @@ fn read_side(
         subsystem: find_subsystem(name, field, subsystems, problems)?,
         marker: marker.map(str::to_owned),
     })
-}
-
-/// The place of a subsystem that a field refers to by name.
-pub(super) fn find_subsystem(
-    name: &str,
-    field: &Field<'_>,
-    subsystems: &Registry<'_>,
-    problems: &mut Problems<'_>,
-) -> Option<usize> {
-    let found = subsystems.position(name);
-    if found.is_none() {
-        let known: Vec<&str> = subsystems.names().collect();
-        let kind = SceneErrorKind::UnknownName {
-            key: field.key.clone(),
-            name: name.to_owned(),
-            nearest: nearest(name, known.iter().copied()),
-            known: Names::from(known.as_slice()),
-        };
-        field.report(kind, problems);
-    }
-    found
 }

@@ -18,6 +18,7 @@ mod output;
 mod overrides;
 mod place;
 mod reader;
+mod reference;
 mod resolve;
 mod resolved;
 mod stability_rules;

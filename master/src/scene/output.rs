@@ -1,9 +1,9 @@
 //! Reads `[output]`: what is recorded and drawn.
 
 use super::error_kind::SceneErrorKind;
-use super::joint::find_subsystem;
 use super::names::Registry;
 use super::reader::{Field, Problems, Section};
+use super::reference::read_variable;
 use super::resolve::collect;
 use super::resolved::{Output, Panel};
 
@@ -32,7 +32,10 @@ pub(super) fn read(
             .items(VARIABLES, problems)
             .and_then(|items| {
                 check_repeated(&items, problems);
-                collect(&items, |item| read_variable(item, subsystems, problems))
+                collect(&items, |item| {
+                    read_variable(item, "SUBSYSTEM.OUTPUT", subsystems, problems)?;
+                    item.text(problems).map(str::to_owned)
+                })
             })
             .map(Some),
         None => Some(None),
@@ -68,29 +71,6 @@ fn read_panel(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Panel> {
         label: label?.to_owned(),
         curves: curves?,
     })
-}
-
-fn read_variable(
-    field: &Field<'_>,
-    subsystems: &Registry<'_>,
-    problems: &mut Problems<'_>,
-) -> Option<String> {
-    let text = field.text(problems)?;
-    match text.split_once('.') {
-        Some((name, output)) if !output.is_empty() => {
-            find_subsystem(name, field, subsystems, problems)?;
-            Some(text.to_owned())
-        }
-        _ => {
-            let kind = SceneErrorKind::InvalidReference {
-                key: field.key.clone(),
-                found: text.to_owned(),
-                allowed: "SUBSYSTEM.OUTPUT",
-            };
-            field.report(kind, problems);
-            None
-        }
-    }
 }
 
 fn check_repeated(items: &[Field<'_>], problems: &mut Problems<'_>) {

@@ -7,6 +7,7 @@ use tonic::transport::Uri;
 
 use super::error_kind::SceneErrorKind;
 use super::reader::{FINITE, Field, Problems, Section, is_name};
+use super::resolve::collect;
 use super::resolved::{Calls, Served, Subsystem};
 use super::written::Value;
 
@@ -66,11 +67,7 @@ pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
 
 fn read_texts(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<String>> {
     let fields = field.texts(VELOCITIES, problems)?;
-    let texts = fields
-        .iter()
-        .map(|field| field.text(problems).map(str::to_owned));
-    let texts: Vec<Option<String>> = texts.collect();
-    texts.into_iter().collect()
+    collect(&fields, |field| field.text(problems).map(str::to_owned))
 }
 
 fn read_model(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String> {
