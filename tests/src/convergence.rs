@@ -92,6 +92,31 @@ pub fn assert_least_orders<const N: usize>(
     );
 }
 
+/// Asserts the observed orders of the errors of all cases, of which `errors` gives those for a macro step, to 0.15.
+pub fn assert_all_orders<const N: usize>(
+    cases: &[(&str, [f64; N])],
+    steps: &[f64],
+    errors: impl Fn(&str, f64) -> [f64; N],
+) {
+    let mut report = String::new();
+    let mut wrong = 0;
+    for (case, expected) in cases {
+        let of_steps: Vec<[f64; N]> = steps.iter().map(|&h| errors(case, h)).collect();
+        let orders = orders_of(steps, &of_steps);
+        let differ = |(order, expected): (&f64, &f64)| (order - expected).abs() > 0.15;
+        let is_wrong = orders.iter().zip(expected).any(differ);
+        let mark = if is_wrong { " <-- not as expected" } else { "" };
+        report += &format!("{case}: {orders:.2?}, expected {expected:?}{mark}\n{of_steps:?}\n");
+        wrong += usize::from(is_wrong);
+    }
+    println!("{report}");
+    assert!(
+        wrong == 0,
+        "{wrong} of {} cases have other orders:\n{report}",
+        cases.len()
+    );
+}
+
 fn slope(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

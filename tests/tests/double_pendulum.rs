@@ -5,7 +5,7 @@
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
 use linchpin_models::reference::DoublePendulum;
-use linchpin_tests::convergence::orders_of;
+use linchpin_tests::convergence::assert_all_orders;
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -83,22 +83,7 @@ fn orders_of_convergence() {
         ),
         ("baumgarte index=3 beta=0 gamma=0 degree=0", [4.0, 4.0, 1.0]),
     ];
-    let mut report = String::new();
-    let mut wrong = 0;
-    for (coupling, expected) in cases {
-        let of_steps = STEPS.map(|h| errors(&trajectory(coupling, h)));
-        let orders = orders_of(&STEPS, &of_steps);
-        let is_wrong = orders
-            .iter()
-            .zip(expected)
-            .any(|(order, expected)| (order - expected).abs() > 0.15);
-        wrong += usize::from(is_wrong);
-        report += &format!("{coupling}: {orders:.2?}, expected {expected:?}\n{of_steps:?}\n");
-    }
-    println!("{report}");
-    assert!(
-        wrong == 0,
-        "{wrong} of {} couplings have other orders:\n{report}",
-        cases.len()
-    );
+    assert_all_orders(&cases, &STEPS, |coupling, h| {
+        errors(&trajectory(coupling, h))
+    });
 }

@@ -6,7 +6,7 @@
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
 use linchpin_models::reference::SliderCrank;
-use linchpin_tests::convergence::{orders_of, slope_of};
+use linchpin_tests::convergence::{assert_all_orders, slope_of};
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -99,22 +99,9 @@ fn orders_of_convergence() {
             [3.0, 3.0, 1.0],
         ),
     ];
-    let mut report = String::new();
-    let mut wrong = 0;
-    for (coupling, expected) in cases {
-        let of_steps = STEPS.map(|h| errors(&trajectory(coupling, h)));
-        let orders = orders_of(&STEPS, &of_steps);
-        let mut pairs = orders.iter().zip(expected);
-        let is_wrong = pairs.any(|(order, expected)| (order - expected).abs() > 0.15);
-        wrong += usize::from(is_wrong);
-        report += &format!("{coupling}: {orders:.2?}, expected {expected:?}\n{of_steps:?}\n");
-    }
-    println!("{report}");
-    assert!(
-        wrong == 0,
-        "{wrong} of {} couplings have other orders:\n{report}",
-        cases.len()
-    );
+    assert_all_orders(&cases, &STEPS, |coupling, h| {
+        errors(&trajectory(coupling, h))
+    });
 }
 
 /// S1 Sect. 4.3: "the numerical dissipation is significantly reduced if higher order approximation is used (k > 0)".

@@ -12,7 +12,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::compare::{Loaded, motions, pose_errors};
 use super::{joints, text, tumbling};
-use crate::convergence::slope_of;
+use crate::convergence::orders_of;
 use crate::runs::Trajectory;
 use crate::scenes::with_settings;
 
@@ -204,10 +204,8 @@ impl PairErrors {
 
     /// Observed orders of [`PairErrors::measured`] over the macro steps `h`.
     pub fn orders(h: &[f64], errors: &[Self]) -> [f64; 4] {
-        std::array::from_fn(|of| {
-            let points = h.iter().zip(errors);
-            slope_of(points.map(|(h, errors)| (*h, errors.measured()[of])))
-        })
+        let measured: Vec<_> = errors.iter().map(Self::measured).collect();
+        orders_of(h, &measured)
     }
 }
 

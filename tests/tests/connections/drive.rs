@@ -6,7 +6,8 @@ use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 use nalgebra::{Matrix4, Vector4};
 
-use crate::{TIGHT, assert_orders, error_of};
+use crate::{TIGHT, error_of};
+use linchpin_tests::convergence::assert_all_orders;
 
 const INERTIA: f64 = 0.083;
 const RESISTANCE: f64 = 0.43;
@@ -109,7 +110,7 @@ fn orders_of_convergence() {
         ("method=weighted exchanged_degree=3", [3.0; 2]),
         ("method=baumgarte exchanged_degree=2", [3.0; 2]),
     ];
-    assert_orders(&cases, &[5e-3, 2.5e-3, 1.25e-3, 6.25e-4], |coupling, h| {
+    assert_all_orders(&cases, &[5e-3, 2.5e-3, 1.25e-3, 6.25e-4], |coupling, h| {
         let coupling = format!("{coupling} macro_step={h}");
         errors(&run(&scene(&coupling), Place::InProcess))
     });
@@ -124,7 +125,7 @@ fn orders_after_the_first_step() {
         ("exchanged_degree=2", [3.0]),
         ("exchanged_degree=3", [3.0]),
     ];
-    assert_orders(&cases, &[1e-3, 5e-4, 2.5e-4, 1.25e-4], |coupling, h| {
+    assert_all_orders(&cases, &[1e-3, 5e-4, 2.5e-4, 1.25e-4], |coupling, h| {
         let end = format!("scene.t_end={h}");
         let coupling = format!("{coupling} macro_step={h}");
         let scene = with_settings(&text(), &coupling, &[TIGHT, &end]);
@@ -161,7 +162,7 @@ fn index_and_method_make_no_difference() {
 #[test]
 fn the_explicit_method_has_order_one() {
     let cases = [("method=explicit mu=10H", [1.0; 2])];
-    assert_orders(&cases, &[2e-3, 1e-3, 5e-4, 2.5e-4], |coupling, h| {
+    assert_all_orders(&cases, &[2e-3, 1e-3, 5e-4, 2.5e-4], |coupling, h| {
         let coupling = format!("{coupling} macro_step={h}");
         errors(&run(&scene(&coupling), Place::InProcess))
     });

@@ -9,7 +9,6 @@ mod mistakes;
 mod processes;
 
 use linchpin::error_norm::ColumnError;
-use linchpin_tests::convergence::slope_of;
 
 /// Far below the errors of the coupling.
 const TIGHT: &str = "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-12, atol = 1e-12 }";
@@ -25,32 +24,4 @@ fn error_of(columns: &[(Vec<f64>, Vec<f64>)]) -> f64 {
         error
     });
     ColumnError::together(errors).normalised()
-}
-
-/// Asserts the observed orders of the errors of all cases, of which `errors` gives those for a macro step.
-fn assert_orders<const N: usize>(
-    cases: &[(&str, [f64; N])],
-    steps: &[f64],
-    errors: impl Fn(&str, f64) -> [f64; N],
-) {
-    let mut report = String::new();
-    let mut wrong = 0;
-    for (case, expected) in cases {
-        let of_steps: Vec<[f64; N]> = steps.iter().map(|&h| errors(case, h)).collect();
-        let orders: [f64; N] = std::array::from_fn(|of| {
-            let points = steps.iter().zip(&of_steps);
-            slope_of(points.map(|(h, errors)| (*h, errors[of])))
-        });
-        let differ = |(order, expected): (&f64, &f64)| (order - expected).abs() > 0.15;
-        let is_wrong = orders.iter().zip(expected).any(differ);
-        let mark = if is_wrong { " <-- not as expected" } else { "" };
-        report += &format!("{case}: {orders:.2?}, expected {expected:?}{mark}\n{of_steps:?}\n");
-        wrong += usize::from(is_wrong);
-    }
-    println!("{report}");
-    assert!(
-        wrong == 0,
-        "{wrong} of {} cases have other orders:\n{report}",
-        cases.len()
-    );
 }

@@ -9,7 +9,8 @@ use linchpin_models::reference::{
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
-use crate::{TIGHT, assert_orders, error_of};
+use crate::{TIGHT, error_of};
+use linchpin_tests::convergence::assert_all_orders;
 
 const SPEED: f64 = 5.0;
 const INTEGRAL: f64 = 200.0;
@@ -179,7 +180,7 @@ fn orders_of_convergence() {
         ),
     ];
     for drive in [&CRANK, &SHAFT] {
-        assert_orders(&cases, &STEPS, |coupling, h| {
+        assert_all_orders(&cases, &STEPS, |coupling, h| {
             let coupling = format!("{coupling} macro_step={h}");
             drive.errors(&drive.run(&coupling, &["scene.t_end=0.4"]))
         });
