@@ -1,6 +1,7 @@
 //! A run from start to end: the macro step, told by one function.
 
 mod closed;
+mod corrected;
 mod degrees;
 mod geometry;
 mod initial;
@@ -22,10 +23,10 @@ pub use subsystem::Subsystem;
 pub use tie::multiplier_columns;
 pub use velocities::FreeVelocity;
 
+use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::Layout;
 use crate::coupling::penalty::Penalty;
-use crate::coupling::semi_implicit::SemiImplicit;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics, Verdict};
 use crate::scene::Scene;
@@ -57,8 +58,8 @@ pub struct Parts {
 
 /// The coupling method with its state.
 pub(crate) enum Scheme {
-    SemiImplicit(SemiImplicit),
-    Explicit(Explicit),
+    Corrected(Box<dyn Corrector>),
+    Explicit(Box<Explicit>),
     Penalty(Penalty),
 }
 
@@ -82,7 +83,9 @@ impl CoSimulation {
         let following = self.grid.step(self.next + 1);
         let started = Instant::now();
         let outcome = match &mut self.scheme {
-            Scheme::SemiImplicit(method) => method.macro_step(&mut self.parts, step, following)?,
+            Scheme::Corrected(method) => {
+                corrected::macro_step(&mut **method, &mut self.parts, step, following)?
+            }
             Scheme::Explicit(method) => method.macro_step(&mut self.parts, step)?,
             Scheme::Penalty(method) => method.macro_step(&mut self.parts, step)?,
         };
@@ -167,12 +170,15 @@ impl Parts {
         }
     }
 
-    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0, once for each perturbed
-    /// input; subsystems whose outputs nobody reads have nothing to tell. The signals are filled in by the method.
-    pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {
+    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0, and once for each perturbed
+    /// input if `with_columns`; subsystems whose outputs nobody reads have nothing to tell. The signals are filled in by the method.
+    pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64, with_columns: bool) {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
             let inputs = self.layout.inputs_of(number).len();
-            let perturbed = self.layout.perturbed_inputs(number);
+            let perturbed = match with_columns {
+                true => self.layout.perturbed_inputs(number),
+                false => 0,
+            };
             if !subsystem.is_read() {
                 continue;
             }
@@ -196,7 +202,7 @@ impl Scheme {
     /// Multipliers at the present macro point.
     pub(crate) fn multipliers(&self) -> &[f64] {
         match self {
-            Self::SemiImplicit(method) => method.multipliers(),
+            Self::Corrected(method) => method.multipliers(),
             Self::Explicit(method) => method.multipliers(),
             Self::Penalty(method) => method.multipliers(),
         }

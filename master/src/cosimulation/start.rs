@@ -10,9 +10,10 @@ use super::refusal::{Refusals, refuse_setup};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
-use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
+use super::{CoSimulation, Parts, Scheme, Subsystem, exchange, velocities};
 use crate::connection::{Connection, StartError};
 use crate::coupling::condition::{Condition, level_of};
+use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::{Coupled, Layout, MarkedJoint, springs_at};
 use crate::coupling::penalty::{Order, Penalty};
@@ -270,7 +271,7 @@ fn begin(
             let history = History::new(variables, &values, attitudes);
             let mut method = Explicit::new(mu, coupling.increment, history, parts);
             method.begin(parts, first_step(grid))?;
-            return Ok(Scheme::Explicit(method));
+            return Ok(Scheme::Explicit(Box::new(method)));
         }
         Method::Jacobi { stiffness, damping } => {
             let order = Order::Jacobi;
@@ -292,8 +293,10 @@ fn begin(
         None => History::new(variables, &values, attitudes),
     };
     let mut method = SemiImplicit::new(condition, coupling.increment, history, parts);
-    method.begin(parts, first_step(grid))?;
-    Ok(Scheme::SemiImplicit(method))
+    let first = first_step(grid);
+    method.request_prediction(parts, first, true)?;
+    exchange(&mut parts.subsystems, first)?;
+    Ok(Scheme::Corrected(Box::new(method)))
 }
 
 /// The scene has checked that the time span is at least one step long.

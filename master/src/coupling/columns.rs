@@ -20,6 +20,8 @@ const AUTOMATIC_EXCHANGED: f64 = 1e-6;
 pub struct Columns {
     rule: Increment,
     columns: Vec<Column>,
+    /// Whether the last look-ahead was asked for columns.
+    are_fresh: bool,
 }
 
 impl Columns {
@@ -32,6 +34,7 @@ impl Columns {
         Self {
             rule,
             columns: layout.inputs.iter().map(column).collect(),
+            are_fresh: false,
         }
     }
 
@@ -41,7 +44,7 @@ impl Columns {
     }
 
     /// Fills in the look-ahead over `length` that was prepared: the extrapolation of every input (S1 eq. 56), and for each
-    /// perturbed one the interpolation through its raised end value (59). `ends` are the extrapolated values of all
+    /// perturbed one the interpolation through its raised end value (59), if `with_columns`. `ends` are the extrapolated values of all
     /// variables at the end, `memory` has room for as many.
     pub fn request(
         &mut self,
@@ -49,8 +52,10 @@ impl Columns {
         history: &History,
         ends: &[f64],
         length: f64,
+        with_columns: bool,
         memory: &mut [f64],
     ) {
+        self.are_fresh = with_columns;
         let mut over = Over {
             history,
             curve: Curve::Extrapolated,
@@ -64,7 +69,7 @@ impl Columns {
             }
             over.curve = Curve::Extrapolated;
             input.signal(&mut over, subsystem.prediction_signal(input.place));
-            let Some(place) = input.perturbed else {
+            let Some(place) = input.perturbed.filter(|_| with_columns) else {
                 continue;
             };
             let end = input.value(ends, history.attitudes());
@@ -75,8 +80,11 @@ impl Columns {
         }
     }
 
-    /// Takes the difference quotients of the last answers of all workers.
+    /// Takes the difference quotients of the last answers of all workers, if columns were asked for.
     pub fn difference(&mut self, parts: &Parts) {
+        if !self.are_fresh {
+            return;
+        }
         for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
             let subsystem = &parts.subsystems[input.subsystem];
             if let Some(place) = input.perturbed {

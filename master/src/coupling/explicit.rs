@@ -88,10 +88,10 @@ impl Explicit {
     }
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
-        parts.prepare_prediction(t, 0.0);
+        parts.prepare_prediction(t, 0.0, true);
         let (history, trial) = (&self.history, self.history.newest());
         self.columns
-            .request(parts, history, trial, 0.0, &mut self.memory);
+            .request(parts, history, trial, 0.0, true, &mut self.memory);
     }
 
     fn solve(&mut self, parts: &Parts, step: MacroStep, length: f64) -> Result<(), RunError> {

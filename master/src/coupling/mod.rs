@@ -5,10 +5,12 @@
 //! * [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
 //! * [`columns`]: increments and finite differences;
+//! * [`corrector`]: what a predictor/corrector method does in a macro step;
 //! * [`semi_implicit`], [`explicit`], [`penalty`]: one macro step of each family of methods.
 
 pub mod columns;
 pub mod condition;
+pub mod corrector;
 pub mod explicit;
 pub mod layout;
 pub mod pattern;

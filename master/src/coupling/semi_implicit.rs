@@ -1,13 +1,12 @@
 //! The semi-implicit predictor/corrector methods of Schweizer & Lu (S1 Sects. 2 and 3.3).
 
-use std::time::Instant;
-
 use super::columns::Columns;
 use super::condition::{Condition, check_finite};
+use super::corrector::Corrector;
 use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System, motion_of};
-use crate::cosimulation::{Outcome, Parts, exchange};
+use crate::cosimulation::Parts;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::results::{Defect, Verdict};
@@ -19,6 +18,8 @@ use crate::time::MacroStep;
 pub struct SemiImplicit {
     condition: Condition,
     history: History,
+    /// The history before the last step.
+    before: History,
     rows: usize,
     predicted: Vec<f64>,
     change: Vec<f64>,
@@ -44,6 +45,7 @@ impl SemiImplicit {
         let system = System::new(&parts.layout);
         Self {
             condition,
+            before: history.clone(),
             history,
             rows: parts.layout.rows.len(),
             predicted: zeros(),
@@ -57,37 +59,11 @@ impl SemiImplicit {
             system,
         }
     }
+}
 
-    /// Multipliers at the present macro point.
-    pub fn multipliers(&self) -> &[f64] {
+impl Corrector for SemiImplicit {
+    fn multipliers(&self) -> &[f64] {
         &self.history.newest()[..self.rows]
-    }
-
-    /// Looks ahead over the first macro step.
-    pub fn begin(&mut self, parts: &mut Parts, first: MacroStep) -> Result<(), RunError> {
-        self.request_prediction(parts, first)?;
-        exchange(&mut parts.subsystems, first)
-    }
-
-    /// One macro step. The prediction over it, with its perturbed steps, came with the exchange before.
-    pub fn macro_step(
-        &mut self,
-        parts: &mut Parts,
-        step: MacroStep,
-        following: Option<MacroStep>,
-    ) -> Result<Outcome, RunError> {
-        let started = Instant::now();
-        self.correct(parts, step)?;
-        let solving = started.elapsed().as_secs_f64();
-        self.request_advance(parts, step);
-        self.history.push(step.length, &self.corrected);
-        match following {
-            Some(following) => self.request_prediction(parts, following)?,
-            None => parts.forgo_prediction(),
-        }
-        exchange(&mut parts.subsystems, step)?;
-        let verdict = self.judge(parts);
-        Ok(Outcome { verdict, solving })
     }
 
     /// S1 eqs. (62) to (68), (73) to (76): columns, Jacobian, corrected coupling variables at `T_{N+1}`.
@@ -114,7 +90,6 @@ impl SemiImplicit {
 
     /// S1 eq. (69): the interpolation through the corrected end value.
     fn request_advance(&mut self, parts: &mut Parts, step: MacroStep) {
-        parts.prepare_advance(step);
         let mut over = Over {
             history: &self.history,
             curve: Curve::Interpolated(&self.corrected),
@@ -128,18 +103,32 @@ impl SemiImplicit {
     }
 
     /// S1 eqs. (56), (59): the extrapolation, and for every input the interpolation through its raised end value.
-    fn request_prediction(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
+    fn request_prediction(
+        &mut self,
+        parts: &mut Parts,
+        step: MacroStep,
+        with_columns: bool,
+    ) -> Result<(), RunError> {
         let length = step.length;
         for (variable, predicted) in self.predicted.iter_mut().enumerate() {
             let curve = Curve::Extrapolated;
             *predicted = self.history.value(variable, curve, length, length);
         }
         check_finite(&self.predicted, parts, step)?;
-        parts.prepare_prediction(step.start, length);
+        parts.prepare_prediction(step.start, length, with_columns);
         let (history, ends) = (&self.history, &self.predicted);
         self.columns
-            .request(parts, history, ends, length, &mut self.memory);
+            .request(parts, history, ends, length, with_columns, &mut self.memory);
         Ok(())
+    }
+
+    fn move_on(&mut self, step: MacroStep) {
+        self.before.copy_from(&self.history);
+        self.history.push(step.length, &self.corrected);
+    }
+
+    fn move_back(&mut self) {
+        std::mem::swap(&mut self.history, &mut self.before);
     }
 
     /// Compares the position conditions at the corrected outputs with what their linearisation promised.

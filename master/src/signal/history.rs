@@ -85,6 +85,13 @@ impl History {
         &self.attitudes
     }
 
+    /// Takes over the values of another history of the same variables, in memory that is already there.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.times.clone_from(&other.times);
+        self.values.clone_from(&other.values);
+        self.attitudes.clone_from(&other.attitudes);
+    }
+
     /// Moves on by one macro step of the given length; `values` belong to its end.
     pub fn push(&mut self, length: f64, values: &[f64]) {
         for time in &mut self.times {

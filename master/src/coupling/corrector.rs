@@ -1,0 +1,40 @@
+//! What a predictor/corrector method does in a macro step; in which order is told by the co-simulation.
+
+use crate::cosimulation::Parts;
+use crate::error::RunError;
+use crate::results::Verdict;
+use crate::time::MacroStep;
+
+/// A method that predicts the coupling variables over a macro step and corrects them from what the workers answer.
+///
+/// It stands at the present macro point `T_N`, from where it predicts; [`Corrector::move_on`] takes it to `T_{N+1}`, and
+/// [`Corrector::move_back`] takes that back, bit by bit.
+pub(crate) trait Corrector: Send {
+    /// Multipliers at the present macro point.
+    fn multipliers(&self) -> &[f64];
+
+    /// Fills in the look-ahead over `step` from the present macro point: predicted inputs, and a perturbed one for each
+    /// column of the coupling Jacobian if `with_columns`; otherwise the last columns stay in use.
+    fn request_prediction(
+        &mut self,
+        parts: &mut Parts,
+        step: MacroStep,
+        with_columns: bool,
+    ) -> Result<(), RunError>;
+
+    /// Solves for the coupling variables at the end of `step` from the answers to the look-ahead over it.
+    fn correct(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError>;
+
+    /// Fills in the advance over `step` with the corrected inputs.
+    fn request_advance(&mut self, parts: &mut Parts, step: MacroStep);
+
+    /// Moves on to the end of `step`.
+    fn move_on(&mut self, step: MacroStep);
+
+    /// Takes the last [`Corrector::move_on`] back.
+    #[expect(dead_code, reason = "for steps that are repeated")]
+    fn move_back(&mut self);
+
+    /// How well the outputs after the advance meet what their linearisation promised.
+    fn judge(&mut self, parts: &Parts) -> Verdict;
+}
