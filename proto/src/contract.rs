@@ -101,6 +101,15 @@ impl Failure {
     }
 }
 
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, more: Self) {
+        self.integrations += more.integrations;
+        self.steps += more.steps;
+        self.nanoseconds += more.nanoseconds;
+        self.derivatives += more.derivatives;
+    }
+}
+
 impl From<Failure> for CallError {
     fn from(failure: Failure) -> Self {
         Self::Failed(failure)

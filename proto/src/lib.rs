@@ -2,6 +2,7 @@
 //!
 //! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
+//! * [`exchange`]: what the parts of an exchange must keep to;
 //! * [`joint_load`]: the load that a joint puts on a marker;
 //! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
 //! * [`status`]: failures as gRPC statuses;
@@ -10,6 +11,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod contract;
+pub mod exchange;
 pub mod joint_load;
 pub mod polynomial;
 pub mod status;

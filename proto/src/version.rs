@@ -3,7 +3,13 @@
 use crate::v1::ProtocolVersion;
 
 /// The version that this build speaks.
-pub const PROTOCOL: ProtocolVersion = ProtocolVersion { major: 1, minor: 0 };
+pub const PROTOCOL: ProtocolVersion = ProtocolVersion { major: 1, minor: 1 };
+
+/// The first minor number whose exchange stream goes back, evaluates beside a prediction and takes samples. An older one would
+/// pass over these parts of a request; a master then uses unary calls, which are the same for all minor numbers.
+///
+/// What a worker may leave out stands in its capabilities and not here: directional derivatives, joint loads.
+const WHOLE_EXCHANGE: u32 = 1;
 
 /// The two sides speak protocols of different major numbers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -30,6 +36,11 @@ pub fn negotiate(theirs: Option<&ProtocolVersion>) -> Result<(), Incompatible> {
     }
 }
 
+/// Whether the exchange stream of a compatible worker knows every part of a request.
+pub fn knows_whole_exchange(theirs: Option<&ProtocolVersion>) -> bool {
+    theirs.is_some_and(|version| version.minor >= WHOLE_EXCHANGE)
+}
+
 fn show(version: &ProtocolVersion) -> String {
     format!("{}.{}", version.major, version.minor)
 }
@@ -47,10 +58,18 @@ mod tests {
     }
 
     #[test]
+    fn an_exchange_of_the_first_version_lacks_parts() {
+        let minor = |minor| Some(ProtocolVersion { major: 1, minor });
+        assert!(!knows_whole_exchange(minor(0).as_ref()));
+        assert!(!knows_whole_exchange(None));
+        assert!(knows_whole_exchange(minor(1).as_ref()) && knows_whole_exchange(Some(&PROTOCOL)));
+    }
+
+    #[test]
     fn an_error_names_both_versions() {
         let error = negotiate(Some(&ProtocolVersion { major: 2, minor: 3 })).unwrap_err();
         let text = error.to_string();
-        assert!(text.contains("1.0") && text.contains("2.3"), "{text}");
+        assert!(text.contains("1.1") && text.contains("2.3"), "{text}");
         assert!(
             negotiate(None)
                 .unwrap_err()

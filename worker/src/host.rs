@@ -293,6 +293,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         max_input_degree: Some(MAX_NODES as u32 - 1),
         exportable_snapshot: false,
         joint_loads: own.joint_loads,
+        directional_derivatives: own.directional_derivatives,
     });
     model
 }

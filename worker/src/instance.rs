@@ -15,8 +15,8 @@ pub(crate) use signals::{Signals, find};
 
 /// A subsystem that is being driven by a master.
 ///
-/// It has one state: that of the start, of the last Step or Restore, or of the last advance of an exchange. A call that
-/// fails leaves it as it was.
+/// It has one state: that of the start, of the last Step or Restore, or of the last advance of an exchange, which can be
+/// taken back. A call that fails leaves it as it was.
 pub struct Instance {
     motion: Motion,
     snapshots: Snapshots,
@@ -154,7 +154,7 @@ impl Instance {
     ) -> Result<v1::PerturbedStepReply, Failure> {
         let meter = Meter::start(&self.motion);
         let horizon = Horizon::Step(interval(request.t, request.step)?);
-        let mut outputs = Vec::new();
+        let (mut outputs, mut derivatives) = (Vec::new(), Vec::new());
         self.motion.set_signals(&request.signals)?;
         self.motion.look_ahead_perturbed(
             Base::Committed,
@@ -162,9 +162,17 @@ impl Instance {
             &request.perturbed,
             &mut outputs,
         )?;
+        self.motion.look_ahead_in_directions(
+            Base::Committed,
+            horizon,
+            &request.directions,
+            None,
+            &mut derivatives,
+        )?;
         Ok(v1::PerturbedStepReply {
             outputs,
             work: Some(meter.stop(&self.motion)),
+            derivatives,
         })
     }
 
@@ -172,12 +180,7 @@ impl Instance {
         &mut self,
         request: &v1::EvaluateRequest,
     ) -> Result<v1::EvaluateReply, Failure> {
-        let values = self
-            .motion
-            .evaluate(request.t, &request.signals, &request.outputs)?;
-        Ok(v1::EvaluateReply {
-            outputs: Some(v1::Outputs { values }),
-        })
+        self.motion.evaluate(request)
     }
 
     /// Whether this call was answered before; refuses numbers that are neither the last nor the next.

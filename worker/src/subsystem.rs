@@ -33,6 +33,12 @@ pub enum StepFailure {
         /// What went wrong.
         message: String,
     },
+    /// This subsystem cannot do what its capabilities do not say.
+    #[error("this model does not offer {what}")]
+    NotOffered {
+        /// What was asked for.
+        what: &'static str,
+    },
     /// The solver cannot go on.
     #[error("{message}")]
     Fatal {
@@ -73,6 +79,25 @@ pub trait Subsystem: Send {
     /// here (internal numerical differentiation). Solvers without control need nothing: the default steps.
     fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         self.step(interval, inputs)
+    }
+
+    /// Writes the derivatives `d/de`, at `e = 0`, of the outputs numbered `wanted` at the end of a step over `interval`
+    /// from the present state, under the inputs `inputs + e direction`, to `values`. With `interval.length = 0` it is the
+    /// direct feed-through: the derivative of the outputs of the present state. The state that this leaves behind does not
+    /// matter; the internal steps that [`Subsystem::perturbed_step`] repeats are kept if they are those of this step.
+    ///
+    /// Where it is given, the model's capabilities say `directional_derivatives`; the default refuses.
+    fn derivative(
+        &mut self,
+        _interval: Interval,
+        _inputs: &Inputs,
+        _direction: &Inputs,
+        _wanted: &[usize],
+        _values: &mut [f64],
+    ) -> Result<(), StepFailure> {
+        Err(StepFailure::NotOffered {
+            what: "directional derivatives",
+        })
     }
 
     /// Internal solver steps since the start, for the statistics.

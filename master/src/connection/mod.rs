@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
-use linchpin_proto::version::PROTOCOL;
+use linchpin_proto::version::{PROTOCOL, knows_whole_exchange};
 use tokio::runtime::Runtime;
 
 use crate::interrupt::Interrupt;
@@ -76,7 +76,7 @@ pub struct Way {
 }
 
 /// Connects to the worker at `address` (`http://HOST:PORT` or `unix:/PATH`) and chooses its route: the exchange stream
-/// where the worker serves it, otherwise the unary calls on a thread of its own.
+/// where the worker serves one that knows every part of a request, otherwise the unary calls on a thread of its own.
 pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallError> {
     let grpc = connect_on(Arc::clone(&way.runtime), address, way)?;
     let description = grpc.describe(&v1::DescribeRequest {
@@ -103,6 +103,9 @@ fn connect_on(runtime: Arc<Runtime>, address: &str, way: &Way) -> Result<Grpc, C
 }
 
 fn serves_exchange(description: &v1::DescribeReply, model: Option<&str>) -> bool {
+    if !knows_whole_exchange(description.protocol.as_ref()) {
+        return false;
+    }
     let mut models = description.models.iter();
     let model = match model {
         Some(name) => models.find(|model| model.name == name),

@@ -122,6 +122,7 @@ impl Subsystem {
             t,
             signals: inputs.iter().enumerate().map(signal).collect(),
             outputs: names.to_vec(),
+            directions: Vec::new(),
         };
         let now = MacroStep {
             start: t,
@@ -151,19 +152,23 @@ impl Subsystem {
         let collected = self.connection.collect(&mut self.reply);
         collected.map_err(|error| self.failed(error, step))?;
         self.exchanges += 1;
-        if let Some(work) = self.reply.work {
-            self.work.integrations += work.integrations;
-            self.work.steps += work.steps;
-            self.work.nanoseconds += work.nanoseconds;
-        }
+        self.work += self.reply.work.unwrap_or_default();
+        self.request.go_back = false;
         self.take_advanced(step)?;
-        self.check_prediction(step)
+        self.check_looks_ahead(step)
     }
 
     fn take_advanced(&mut self, step: MacroStep) -> Result<(), RunError> {
-        if self.request.advance.is_none() {
+        let Some(advance) = &self.request.advance else {
             return Ok(());
-        }
+        };
+        let samples = (&self.reply.samples[..], advance.samples.len());
+        self.check_each(
+            ["samples", "sampled outputs"],
+            samples,
+            &self.output_names,
+            step,
+        )?;
         let advanced = values(self.reply.advanced.as_ref());
         self.check("advanced outputs", advanced, &self.output_names, step)?;
         self.outputs.clear();
@@ -172,18 +177,63 @@ impl Subsystem {
         Ok(())
     }
 
-    fn check_prediction(&self, step: MacroStep) -> Result<(), RunError> {
-        let Some(predict) = &self.request.predict else {
-            return Ok(());
-        };
+    fn check_looks_ahead(&self, step: MacroStep) -> Result<(), RunError> {
         let names = &self.output_names[..self.coupling_outputs];
-        self.check("predicted outputs", self.predicted(), names, step)?;
-        let (found, expected) = (self.reply.perturbed.len(), predict.perturbed.len());
-        if found != expected {
-            return Err(self.wrong_count("perturbed steps", found, expected, step));
+        let reply = &self.reply;
+        if let Some(predict) = &self.request.predict {
+            self.check("predicted outputs", self.predicted(), names, step)?;
+            let perturbed = (&reply.perturbed[..], predict.perturbed.len());
+            self.check_each(
+                ["perturbed steps", "perturbed outputs"],
+                perturbed,
+                names,
+                step,
+            )?;
+            let derivatives = (&reply.derivatives[..], predict.directions.len());
+            self.check_each(
+                ["directions", "derivatives of predicted outputs"],
+                derivatives,
+                names,
+                step,
+            )?;
         }
-        for perturbed in &self.reply.perturbed {
-            self.check("perturbed outputs", &perturbed.values, names, step)?;
+        if let Some(evaluate) = &self.request.evaluate {
+            let evaluated = values(reply.evaluated.as_ref());
+            self.check("evaluated outputs", evaluated, names, step)?;
+            let perturbed = (&reply.evaluated_perturbed[..], evaluate.perturbed.len());
+            self.check_each(
+                ["perturbed evaluations", "perturbed outputs"],
+                perturbed,
+                names,
+                step,
+            )?;
+            let derivatives = (&reply.evaluated_derivatives[..], evaluate.directions.len());
+            self.check_each(
+                [
+                    "directions of an evaluation",
+                    "derivatives of evaluated outputs",
+                ],
+                derivatives,
+                names,
+                step,
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Checks that a list, which is called `list`, has as many entries as expected, and that each `entry` is whole and finite.
+    fn check_each(
+        &self,
+        [list, entry]: [&'static str; 2],
+        (found, expected): (&[v1::Outputs], usize),
+        names: &[String],
+        step: MacroStep,
+    ) -> Result<(), RunError> {
+        if found.len() != expected {
+            return Err(self.wrong_count(list, found.len(), expected, step));
+        }
+        for outputs in found {
+            self.check(entry, &outputs.values, names, step)?;
         }
         Ok(())
     }

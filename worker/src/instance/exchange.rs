@@ -1,8 +1,10 @@
 //! The fused macro step on top of step, snapshot and restore.
 
+use linchpin_proto::exchange::{check_evaluation, check_samples};
 use linchpin_proto::v1::{self, Failure};
 
 use super::{Answer, Base, Horizon, Instance, Meter, Sequence, interval};
+use crate::Interval;
 
 impl Instance {
     /// Goes on with the corrected inputs and commits, then looks ahead from there.
@@ -20,7 +22,7 @@ impl Instance {
                 other => Err(other.belongs_not_to("Exchange")),
             };
         }
-        let answer = self.advance_and_predict(request, reply);
+        let answer = self.turn(request, reply);
         if answer.is_ok() {
             copy(reply, &mut self.exchanged);
         }
@@ -28,7 +30,23 @@ impl Instance {
         answer
     }
 
-    fn advance_and_predict(
+    fn turn(
+        &mut self,
+        request: &v1::ExchangeRequest,
+        reply: &mut v1::ExchangeReply,
+    ) -> Result<(), Failure> {
+        if !request.go_back {
+            return self.advance_and_look_ahead(request, reply);
+        }
+        self.motion.take_back()?;
+        let answer = self.advance_and_look_ahead(request, reply);
+        if answer.is_err() {
+            self.motion.stay();
+        }
+        answer
+    }
+
+    fn advance_and_look_ahead(
         &mut self,
         request: &v1::ExchangeRequest,
         reply: &mut v1::ExchangeReply,
@@ -38,21 +56,35 @@ impl Instance {
         reply.failure = None;
         let base = match &request.advance {
             Some(advance) => {
-                let outputs = reply.advanced.get_or_insert_default();
-                self.advance(advance, &mut outputs.values)?;
+                self.advance(advance, reply)?;
                 Base::Advanced
             }
             None => {
                 reply.advanced = None;
+                reply.samples.clear();
                 Base::Committed
             }
         };
-        match &request.predict {
-            Some(predict) => self.predict(base, predict, reply)?,
-            None => {
-                reply.predicted = None;
-                reply.perturbed.clear();
+        let mut evaluated = LookAhead {
+            outputs: &mut reply.evaluated,
+            perturbed: &mut reply.evaluated_perturbed,
+            derivatives: &mut reply.evaluated_derivatives,
+        };
+        match &request.evaluate {
+            Some(evaluate) => {
+                check_evaluation(evaluate)?;
+                self.look_ahead(base, evaluate, evaluated)?;
             }
+            None => evaluated.clear(),
+        }
+        let mut predicted = LookAhead {
+            outputs: &mut reply.predicted,
+            perturbed: &mut reply.perturbed,
+            derivatives: &mut reply.derivatives,
+        };
+        match &request.predict {
+            Some(predict) => self.look_ahead(base, predict, predicted)?,
+            None => predicted.clear(),
         }
         if base == Base::Advanced {
             self.motion.commit();
@@ -61,25 +93,65 @@ impl Instance {
         Ok(())
     }
 
-    fn advance(&mut self, advance: &v1::Advance, values: &mut Vec<f64>) -> Result<(), Failure> {
-        let interval = interval(advance.t, advance.step)?;
-        self.motion
-            .advance(interval, &advance.signals, v1::OutputSet::All, values)
-    }
-
-    fn predict(
+    fn advance(
         &mut self,
-        base: Base,
-        predict: &v1::Predict,
+        advance: &v1::Advance,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), Failure> {
-        let horizon = Horizon::of(predict)?;
-        let predicted = reply.predicted.get_or_insert_default();
-        self.motion.set_signals(&predict.signals)?;
+        let interval = interval(advance.t, advance.step)?;
+        check_samples(advance)?;
+        let advanced = reply.advanced.get_or_insert_default();
+        self.motion.advance(
+            interval,
+            &advance.signals,
+            v1::OutputSet::All,
+            &mut advanced.values,
+        )?;
+        reply
+            .samples
+            .resize_with(advance.samples.len(), v1::Outputs::default);
+        for (&length, outputs) in advance.samples.iter().zip(&mut reply.samples) {
+            let shorter = Interval { length, ..interval };
+            self.motion.sample(shorter, &mut outputs.values)?;
+        }
+        Ok(())
+    }
+
+    fn look_ahead(
+        &mut self,
+        base: Base,
+        look: &v1::Predict,
+        into: LookAhead,
+    ) -> Result<(), Failure> {
+        let horizon = Horizon::of(look)?;
+        let outputs = into.outputs.get_or_insert_default();
+        self.motion.set_signals(&look.signals)?;
         self.motion
-            .look_ahead(base, horizon, Sequence::Own, &mut predicted.values)?;
+            .look_ahead(base, horizon, Sequence::Own, &mut outputs.values)?;
         self.motion
-            .look_ahead_perturbed(base, horizon, &predict.perturbed, &mut reply.perturbed)
+            .look_ahead_perturbed(base, horizon, &look.perturbed, into.perturbed)?;
+        self.motion.look_ahead_in_directions(
+            base,
+            horizon,
+            &look.directions,
+            None,
+            into.derivatives,
+        )
+    }
+}
+
+/// Where the answer of a prediction or an evaluation stands in a reply.
+struct LookAhead<'a> {
+    outputs: &'a mut Option<v1::Outputs>,
+    perturbed: &'a mut Vec<v1::Outputs>,
+    derivatives: &'a mut Vec<v1::Outputs>,
+}
+
+impl LookAhead<'_> {
+    fn clear(&mut self) {
+        *self.outputs = None;
+        self.perturbed.clear();
+        self.derivatives.clear();
     }
 }
 
@@ -95,12 +167,24 @@ impl Horizon {
 /// Copies an answer into memory that is already there.
 fn copy(from: &v1::ExchangeReply, to: &mut v1::ExchangeReply) {
     to.sequence = from.sequence;
-    copy_outputs(from.advanced.as_ref(), &mut to.advanced);
-    copy_outputs(from.predicted.as_ref(), &mut to.predicted);
-    to.perturbed
-        .resize_with(from.perturbed.len(), v1::Outputs::default);
-    for (from, to) in from.perturbed.iter().zip(&mut to.perturbed) {
-        to.values.clone_from(&from.values);
+    for (from, to) in [
+        (&from.advanced, &mut to.advanced),
+        (&from.evaluated, &mut to.evaluated),
+        (&from.predicted, &mut to.predicted),
+    ] {
+        copy_outputs(from.as_ref(), to);
+    }
+    for (from, to) in [
+        (&from.samples, &mut to.samples),
+        (&from.evaluated_perturbed, &mut to.evaluated_perturbed),
+        (&from.evaluated_derivatives, &mut to.evaluated_derivatives),
+        (&from.perturbed, &mut to.perturbed),
+        (&from.derivatives, &mut to.derivatives),
+    ] {
+        to.resize_with(from.len(), v1::Outputs::default);
+        for (from, to) in from.iter().zip(to) {
+            to.values.clone_from(&from.values);
+        }
     }
     to.work = from.work;
     to.failure = None;

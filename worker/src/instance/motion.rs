@@ -1,11 +1,16 @@
 //! A subsystem on its way: steps, outputs, and the states that it can go back to.
 
-use std::time::Instant;
+mod look_ahead;
+mod meter;
 
+use linchpin_proto::exchange::nothing_to_take_back;
 use linchpin_proto::v1::{self, Failure};
 
 use super::signals::{Signals, find};
 use crate::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
+
+pub(super) use look_ahead::{Horizon, Sequence};
+pub(super) use meter::Meter;
 
 /// Every state that the subsystem reaches gets a number, so that a step is known to start where another did.
 type StateNumber = u64;
@@ -40,7 +45,11 @@ pub(super) struct Motion {
     last_step: Option<(Interval, StateNumber)>,
     committed: Kept,
     advanced: Kept,
+    /// The state that the last advance started from.
+    previous: Kept,
+    can_go_back: bool,
     integrations: u64,
+    derivatives: u64,
 }
 
 /// Which state a step starts from.
@@ -48,20 +57,6 @@ pub(super) struct Motion {
 pub(super) enum Base {
     Committed,
     Advanced,
-}
-
-/// How far a prediction looks.
-#[derive(Clone, Copy)]
-pub(super) enum Horizon {
-    Step(Interval),
-    Now(f64),
-}
-
-/// Which internal steps the solver takes.
-#[derive(Clone, Copy, PartialEq)]
-pub(super) enum Sequence {
-    Own,
-    Repeated,
 }
 
 impl Motion {
@@ -92,7 +87,10 @@ impl Motion {
             last_step: None,
             committed,
             advanced: Kept::default(),
+            previous: Kept::default(),
+            can_go_back: false,
             integrations: 0,
+            derivatives: 0,
         })
     }
 
@@ -123,78 +121,46 @@ impl Motion {
         Ok(())
     }
 
+    /// All outputs after a shorter step than the advance, from where it started and under its signals.
+    pub(super) fn sample(
+        &mut self,
+        interval: Interval,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Failure> {
+        self.go_to(Base::Committed)?;
+        self.integrate(interval, Sequence::Own)?;
+        self.read(interval, v1::OutputSet::All, values)
+    }
+
+    /// Makes the end of the advance the committed state.
     pub(super) fn commit(&mut self) {
+        std::mem::swap(&mut self.previous, &mut self.committed);
         std::mem::swap(&mut self.committed, &mut self.advanced);
+        self.can_go_back = true;
+    }
+
+    /// Makes the state that the last advance started from the committed one again.
+    pub(super) fn take_back(&mut self) -> Result<(), Failure> {
+        if !self.can_go_back {
+            return Err(nothing_to_take_back());
+        }
+        std::mem::swap(&mut self.committed, &mut self.previous);
+        self.can_go_back = false;
+        Ok(())
+    }
+
+    /// Undoes [`Motion::take_back`], after which nothing was committed.
+    pub(super) fn stay(&mut self) {
+        std::mem::swap(&mut self.committed, &mut self.previous);
+        self.can_go_back = true;
     }
 
     /// Makes `kept` the committed state.
     pub(super) fn restore(&mut self, kept: &Kept) -> Result<(), Failure> {
         go_back(&mut *self.subsystem, &mut self.stands_at, kept)?;
         self.committed.copy_from(kept);
+        self.can_go_back = false;
         Ok(())
-    }
-
-    /// Coupling outputs at the horizon under the present signals; the committed state stays.
-    pub(super) fn look_ahead(
-        &mut self,
-        base: Base,
-        horizon: Horizon,
-        sequence: Sequence,
-        values: &mut Vec<f64>,
-    ) -> Result<(), Failure> {
-        self.go_to(base)?;
-        let interval = match horizon {
-            Horizon::Step(interval) => {
-                self.integrate(interval, sequence)?;
-                interval
-            }
-            Horizon::Now(t) => Interval {
-                start: t,
-                length: 0.0,
-            },
-        };
-        self.read(interval, v1::OutputSet::Coupling, values)
-    }
-
-    /// Looks ahead once for every perturbed signal, in place of the present signal of its input.
-    pub(super) fn look_ahead_perturbed(
-        &mut self,
-        base: Base,
-        horizon: Horizon,
-        perturbed: &[v1::Signal],
-        outputs: &mut Vec<v1::Outputs>,
-    ) -> Result<(), Failure> {
-        outputs.resize_with(perturbed.len(), v1::Outputs::default);
-        for (signal, outputs) in perturbed.iter().zip(outputs) {
-            let replaced = self.signals.replace(signal)?;
-            let done = self.look_ahead(base, horizon, Sequence::Repeated, &mut outputs.values);
-            self.signals.put_back(replaced);
-            done?;
-        }
-        Ok(())
-    }
-
-    /// Outputs of the committed state by their names.
-    pub(super) fn evaluate(
-        &mut self,
-        t: f64,
-        signals: &[v1::Signal],
-        names: &[String],
-    ) -> Result<Vec<f64>, Failure> {
-        if !t.is_finite() {
-            return Err(Failure::misuse(
-                "t",
-                format!("t = {t}: it must be a finite number"),
-            ));
-        }
-        let wanted = find(&self.outputs, names, "outputs")?;
-        self.signals.set(signals)?;
-        self.go_to(Base::Committed)?;
-        let mut values = vec![0.0; wanted.len()];
-        self.subsystem
-            .outputs(t, self.signals.values_at(0.0), &wanted, &mut values)
-            .map_err(|failure| tell(failure, t, 0.0))?;
-        Ok(values)
     }
 
     fn go_to(&mut self, base: Base) -> Result<(), Failure> {
@@ -279,35 +245,11 @@ pub(super) fn interval(start: f64, length: f64) -> Result<Interval, Failure> {
 fn tell(failure: StepFailure, t: f64, step: f64) -> Failure {
     match &failure {
         StepFailure::Recoverable { t, .. } => Failure::recoverable(*t, step, failure.to_string()),
+        StepFailure::NotOffered { .. } => Failure::misuse("directions", failure.to_string()),
         StepFailure::Fatal { message } => Failure {
             t: Some(t),
             step: Some(step),
             ..Failure::fatal(message.clone())
         },
-    }
-}
-
-/// Counts what one call costs.
-pub(super) struct Meter {
-    started: Instant,
-    integrations: u64,
-    steps: u64,
-}
-
-impl Meter {
-    pub(super) fn start(motion: &Motion) -> Self {
-        Self {
-            started: Instant::now(),
-            integrations: motion.integrations,
-            steps: motion.subsystem.internal_steps(),
-        }
-    }
-
-    pub(super) fn stop(self, motion: &Motion) -> v1::Work {
-        v1::Work {
-            integrations: motion.integrations - self.integrations,
-            steps: motion.subsystem.internal_steps() - self.steps,
-            nanoseconds: u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX),
-        }
     }
 }

@@ -11,6 +11,9 @@ pub(crate) struct Signals {
     driven: Vec<Driven>,
     is_given: Vec<bool>,
     inputs: Inputs,
+    /// Zero, except for the input that a direction names.
+    direction: Inputs,
+    directed: Option<usize>,
     values: Vec<f64>,
 }
 
@@ -69,6 +72,8 @@ impl Signals {
             is_given: vec![false; driven.len()],
             driven,
             inputs: Inputs::constant(&start),
+            direction: Inputs::constant(&vec![0.0; start.len()]),
+            directed: None,
             values: start,
         })
     }
@@ -83,6 +88,10 @@ impl Signals {
         self.driven.get(signal).map(|driven| driven.input)
     }
 
+    pub(super) fn direction(&self) -> &Inputs {
+        &self.direction
+    }
+
     pub(super) fn inputs(&self) -> &Inputs {
         &self.inputs
     }
@@ -91,7 +100,7 @@ impl Signals {
     pub(super) fn set(&mut self, signals: &[v1::Signal]) -> Result<(), Failure> {
         self.is_given.fill(false);
         for signal in signals {
-            let place = self.place(signal)?;
+            let place = self.place(signal, "signals")?;
             let driven = &self.driven[place];
             if std::mem::replace(&mut self.is_given[place], true) {
                 return Err(Failure::misuse(
@@ -99,7 +108,8 @@ impl Signals {
                     format!("input \"{}\" has two signals", driven.name),
                 ));
             }
-            self.inputs.replace(driven.input, polynomial(signal)?);
+            self.inputs
+                .replace(driven.input, polynomial(signal, "signals")?);
         }
         for (driven, _) in self
             .driven
@@ -123,8 +133,8 @@ impl Signals {
     }
 
     pub(super) fn replace(&mut self, signal: &v1::Signal) -> Result<Replaced, Failure> {
-        let input = self.driven[self.place(signal)?].input;
-        let polynomial = self.inputs.replace(input, polynomial(signal)?);
+        let input = self.driven[self.place(signal, "signals")?].input;
+        let polynomial = self.inputs.replace(input, polynomial(signal, "signals")?);
         Ok(Replaced { input, polynomial })
     }
 
@@ -132,19 +142,32 @@ impl Signals {
         self.inputs.replace(replaced.input, replaced.polynomial);
     }
 
+    /// Takes the direction in which one input changes; all others stay.
+    pub(super) fn set_direction(&mut self, direction: &v1::Signal) -> Result<(), Failure> {
+        let place = self.place(direction, "directions")?;
+        let polynomial = polynomial(direction, "directions")?;
+        if let Some(before) = self.directed {
+            self.direction.replace(before, Polynomial::constant(0.0));
+        }
+        let input = self.driven[place].input;
+        self.direction.replace(input, polynomial);
+        self.directed = Some(input);
+        Ok(())
+    }
+
     pub(super) fn values_at(&mut self, tau: f64) -> &[f64] {
         self.inputs.values_at(tau, &mut self.values);
         &self.values
     }
 
-    /// Place of the signal's input among the driven ones.
-    fn place(&self, signal: &v1::Signal) -> Result<usize, Failure> {
+    /// Place of the signal's input among the driven ones; `field` is where the signal stands in the request.
+    fn place(&self, signal: &v1::Signal, field: &str) -> Result<usize, Failure> {
         let place = signal.input as usize;
         if place < self.driven.len() {
             return Ok(place);
         }
         Err(Failure::misuse(
-            "signals",
+            field,
             format!(
                 "a signal names input {place}, but Initialize listed {} inputs (counted from 0)",
                 self.driven.len()
@@ -188,10 +211,10 @@ fn refuse_twice(field: &str, names: &[String]) -> Result<(), Failure> {
     })
 }
 
-fn polynomial(signal: &v1::Signal) -> Result<Polynomial, Failure> {
+fn polynomial(signal: &v1::Signal, field: &str) -> Result<Polynomial, Failure> {
     Polynomial::from_signal(signal).map_err(|error| {
         Failure::misuse(
-            "signals",
+            field,
             format!("the signal of input {}: {error}", signal.input),
         )
     })

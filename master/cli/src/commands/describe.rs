@@ -131,10 +131,12 @@ fn model_text(model: &Model) -> String {
     }
     let capabilities = model.capabilities.unwrap_or_default();
     text += &format!(
-        "  exchange stream {}, perturbed steps repeat the step sequence {}, exportable snapshots {}\n",
+        "  exchange stream {}, perturbed steps repeat the step sequence {}, exportable snapshots {}, \
+         directional derivatives {}\n",
         yes(capabilities.exchange),
         yes(capabilities.repeats_step_sequence),
-        yes(capabilities.exportable_snapshot)
+        yes(capabilities.exportable_snapshot),
+        yes(capabilities.directional_derivatives)
     );
     text
 }

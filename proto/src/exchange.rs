@@ -1,0 +1,51 @@
+//! What the parts of an exchange must keep to, whoever carries them out.
+
+use crate::v1::{Advance, Failure, Predict};
+
+/// The samples of an advance are ascending instants inside its step.
+///
+/// # Errors
+/// [`Failure`] of severity misuse that names the first sample which is not.
+pub fn check_samples(advance: &Advance) -> Result<(), Failure> {
+    let mut earliest = 0.0;
+    for (place, &sample) in advance.samples.iter().enumerate() {
+        if !(sample > earliest && sample < advance.step) {
+            return Err(Failure::misuse(
+                "advance.samples",
+                format!(
+                    "sample {place} is {sample} s after the start of the step; it must be after {earliest} s and before \
+                     the end of the step at {} s",
+                    advance.step
+                ),
+            ));
+        }
+        earliest = sample;
+    }
+    Ok(())
+}
+
+/// An evaluation beside a prediction is a look ahead of zero length.
+///
+/// # Errors
+/// [`Failure`] of severity misuse if it is not.
+pub fn check_evaluation(evaluate: &Predict) -> Result<(), Failure> {
+    if evaluate.t.is_finite() && evaluate.step == 0.0 {
+        return Ok(());
+    }
+    Err(Failure::misuse(
+        "evaluate.step",
+        format!(
+            "an evaluation at t = {} s over {} s: t must be finite, the length 0; a step is a prediction",
+            evaluate.t, evaluate.step
+        ),
+    ))
+}
+
+/// The refusal of a request to go back where no advance can be taken back.
+pub fn nothing_to_take_back() -> Failure {
+    Failure::misuse(
+        "go_back",
+        "the committed state is not the end of an advance, so there is nothing to take back: one advance can be, not two; \
+         further back there are Snapshot and Restore",
+    )
+}
