@@ -5,6 +5,7 @@ use std::sync::Arc;
 use linchpin_master::coupling::layout::{Coupled, Layout, LoadForm, MarkedJoint};
 use linchpin_master::coupling::pattern::Pattern;
 use linchpin_master::coupling::system::System;
+use linchpin_master::coupling::unknowns::Unknowns;
 use linchpin_master::joint::Level;
 use linchpin_master::joint::composite::{Kind, PlanarFrame, in_plane};
 use linchpin_proto::v1;
@@ -43,7 +44,8 @@ pub fn pattern(bodies: usize, hinges: &[[usize; 2]]) -> Pattern {
         connections: &[],
     };
     let layout = Layout::new(&coupled, Level::Acceleration).unwrap();
-    System::new(&layout).pattern().clone()
+    let unknowns = Unknowns::ends(&layout);
+    System::new(&layout, unknowns).pattern().clone()
 }
 
 fn hinge([a, b]: &[usize; 2]) -> MarkedJoint {

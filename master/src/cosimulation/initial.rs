@@ -8,6 +8,7 @@ use crate::coupling::columns::Column;
 use crate::coupling::layout::{Coupled, Layout, What};
 use crate::coupling::solve::{LinearSolver, SingularColumn};
 use crate::coupling::system::{Point, System};
+use crate::coupling::unknowns::Unknowns;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::scene::{Connection, Scene};
@@ -107,7 +108,7 @@ impl InitialState {
         parts: &Parts,
         multipliers: Multipliers,
     ) -> Result<(), RunError> {
-        let mut system = System::new(layout);
+        let mut system = System::new(layout, Unknowns::ends(layout));
         let mut solver = LinearSolver::new(system.pattern());
         let mut unsettled = 0;
         for _ in 0..MOST_PASSES {
@@ -140,11 +141,8 @@ impl InitialState {
         system: &mut System,
     ) -> Result<(), RunError> {
         let base = evaluate_all(layout, parts, scene.t_start, self)?;
-        let columns = self.columns(layout, parts, scene.t_start, &base)?;
-        let point = Point {
-            w: &self.variables,
-            attitudes: &self.attitudes,
-        };
+        let columns = self.columns(layout, parts, scene.t_start, &base, system.unknowns())?;
+        let point = Point::ends(&self.variables, &self.attitudes);
         system.assemble(layout, |subsystem| &base[subsystem], &columns, point);
         Ok(())
     }
@@ -156,16 +154,20 @@ impl InitialState {
         parts: &Parts,
         t: f64,
         base: &[Vec<f64>],
+        unknowns: &Unknowns,
     ) -> Result<Vec<Column>, RunError> {
         let mut columns = Vec::with_capacity(layout.inputs.len());
-        for input in &layout.inputs {
+        for (number, input) in layout.inputs.iter().enumerate() {
+            if unknowns.columns(number).is_empty() {
+                continue;
+            }
             let mut column = Column {
                 increment: 1.0,
                 is_load: input.drives_load(layout.rows.len()),
                 ..Column::default()
             };
             let names = &layout.outputs[input.subsystem];
-            if input.perturbed.is_some() {
+            if input.is_perturbed {
                 let mut inputs =
                     layout.input_values(input.subsystem, &self.variables, &self.attitudes);
                 if !column.is_load {

@@ -170,15 +170,11 @@ impl Parts {
         }
     }
 
-    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0, and once for each perturbed
-    /// input if `with_columns`; subsystems whose outputs nobody reads have nothing to tell. The signals are filled in by the method.
-    pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64, with_columns: bool) {
+    /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0; subsystems whose outputs nobody
+    /// reads have nothing to tell. The signals are filled in by the method.
+    pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
             let inputs = self.layout.inputs_of(number).len();
-            let perturbed = match with_columns {
-                true => self.layout.perturbed_inputs(number),
-                false => 0,
-            };
             if !subsystem.is_read() {
                 continue;
             }
@@ -186,7 +182,6 @@ impl Parts {
             predict.t = t;
             predict.step = length;
             predict.signals.resize_with(inputs, Default::default);
-            predict.perturbed.resize_with(perturbed, Default::default);
         }
     }
 

@@ -1,9 +1,12 @@
 //! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
 
+use std::ops::Range;
+
 use super::layout::{Layout, Over};
+use super::unknowns::Unknowns;
 use crate::cosimulation::Parts;
 use crate::scene::Increment;
-use crate::signal::{Curve, History};
+use crate::signal::Curves;
 
 /// Relative increment when it is chosen automatically. Loads enter nearly linearly, so a large one costs no accuracy
 /// and stands above the noise of a solver with step-size control.
@@ -20,22 +23,52 @@ const AUTOMATIC_EXCHANGED: f64 = 1e-6;
 pub struct Columns {
     rule: Increment,
     columns: Vec<Column>,
+    /// The columns of each input.
+    of_input: Vec<Range<usize>>,
+    /// Number of columns of each subsystem.
+    of_subsystem: Vec<usize>,
     /// Whether the last look-ahead was asked for columns.
     are_fresh: bool,
 }
 
+/// A look-ahead: what it is asked for.
+#[derive(Clone, Copy)]
+pub struct Look<'a> {
+    /// The predicted curves (S1 eq. 56).
+    pub predicted: &'a dyn Curves,
+    /// Curves with the same values at the end of the step that can be raised (S1 eq. 59).
+    pub raised: &'a dyn Curves,
+    /// Predicted values of all variables at the end of the step.
+    pub ends: &'a [f64],
+    /// Whether the response to every raised input is asked for.
+    pub with_columns: bool,
+}
+
 impl Columns {
-    /// One column for each driven input of `layout`.
-    pub fn new(rule: Increment, layout: &Layout) -> Self {
-        let column = |input: &super::layout::DrivenInput| Column {
-            is_load: input.drives_load(layout.rows.len()),
-            ..Column::default()
-        };
-        Self {
+    /// The columns of the driven inputs of `layout`, one for each shape that it is raised in.
+    pub fn new(rule: Increment, layout: &Layout, unknowns: &Unknowns) -> Self {
+        let mut own = Self {
             rule,
-            columns: layout.inputs.iter().map(column).collect(),
+            columns: Vec::new(),
+            of_input: Vec::new(),
+            of_subsystem: vec![0; layout.outputs.len()],
             are_fresh: false,
+        };
+        for (number, input) in layout.inputs.iter().enumerate() {
+            let numbers = unknowns.columns(number);
+            for _ in numbers.clone() {
+                let count = &mut own.of_subsystem[input.subsystem];
+                let place = input.is_perturbed.then_some(*count);
+                *count += usize::from(input.is_perturbed);
+                own.columns.push(Column {
+                    is_load: input.drives_load(layout.rows.len()),
+                    place,
+                    ..Column::default()
+                });
+            }
+            own.of_input.push(numbers);
         }
+        own
     }
 
     /// The columns in the order of the inputs; those of inputs that are not perturbed are empty.
@@ -43,40 +76,43 @@ impl Columns {
         &self.columns
     }
 
-    /// Fills in the look-ahead over `length` that was prepared: the extrapolation of every input (S1 eq. 56), and for each
-    /// perturbed one the interpolation through its raised end value (59), if `with_columns`. `ends` are the extrapolated values of all
-    /// variables at the end, `memory` has room for as many.
-    pub fn request(
-        &mut self,
-        parts: &mut Parts,
-        history: &History,
-        ends: &[f64],
-        length: f64,
-        with_columns: bool,
-        memory: &mut [f64],
-    ) {
-        self.are_fresh = with_columns;
+    /// Fills in the look-ahead that was prepared: the predicted curve of every input, and for each perturbed one the curves
+    /// that are raised in each of its shapes, if columns are asked for. `memory` has room for one value of every variable.
+    pub fn request(&mut self, parts: &mut Parts, look: Look<'_>, memory: &mut [f64]) {
+        self.are_fresh = look.with_columns;
+        self.make_room(parts);
         let mut over = Over {
-            history,
-            curve: Curve::Extrapolated,
-            step: length,
+            curves: look.predicted,
             memory,
         };
-        for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
+        for (input, columns) in parts.layout.inputs.iter().zip(&self.of_input) {
             let subsystem = &mut parts.subsystems[input.subsystem];
             if !subsystem.is_read() {
                 continue;
             }
-            over.curve = Curve::Extrapolated;
+            over.curves = look.predicted;
             input.signal(&mut over, subsystem.prediction_signal(input.place));
-            let Some(place) = input.perturbed.filter(|_| with_columns) else {
+            if !(input.is_perturbed && look.with_columns) {
                 continue;
-            };
-            let end = input.value(ends, history.attitudes());
-            column.choose_increment(self.rule, end, subsystem.tolerance);
-            over.curve = Curve::Interpolated(ends);
-            let raised = subsystem.perturbed_signal(place, input.place);
-            input.raised_signal(&mut over, column.increment, raised);
+            }
+            let end = input.value(look.ends, look.raised.attitudes());
+            over.curves = look.raised;
+            for (raised, column) in self.columns[columns.clone()].iter_mut().enumerate() {
+                if let Some(place) = column.place {
+                    column.choose_increment(self.rule, end, subsystem.tolerance);
+                    let signal = subsystem.perturbed_signal(place, input.place);
+                    input.raised_signal(&mut over, raised, column.increment, signal);
+                }
+            }
+        }
+    }
+
+    fn make_room(&self, parts: &mut Parts) {
+        for (subsystem, &columns) in parts.subsystems.iter_mut().zip(&self.of_subsystem) {
+            if let Some(predict) = &mut subsystem.request.predict {
+                let columns = if self.are_fresh { columns } else { 0 };
+                predict.perturbed.resize_with(columns, Default::default);
+            }
         }
     }
 
@@ -85,13 +121,15 @@ impl Columns {
         if !self.are_fresh {
             return;
         }
-        for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
+        for (input, columns) in parts.layout.inputs.iter().zip(&self.of_input) {
             let subsystem = &parts.subsystems[input.subsystem];
-            if let Some(place) = input.perturbed {
-                column.difference(
-                    subsystem.predicted(),
-                    &subsystem.reply.perturbed[place].values,
-                );
+            for column in &mut self.columns[columns.clone()] {
+                if let Some(place) = column.place {
+                    column.difference(
+                        subsystem.predicted(),
+                        &subsystem.reply.perturbed[place].values,
+                    );
+                }
             }
         }
     }
@@ -106,6 +144,8 @@ pub struct Column {
     pub increment: f64,
     /// Whether the input is a load: it enters linearly or nearly so.
     pub is_load: bool,
+    /// Place among the perturbed steps of its subsystem; absent if the input is not perturbed.
+    pub place: Option<usize>,
 }
 
 impl Column {
@@ -155,6 +195,7 @@ mod tests {
             derivatives: vec![5e-7],
             increment: 0.0,
             is_load: true,
+            place: None,
         };
         column.choose_increment(Increment::Relative(1e-5), 333.0, Some(1e-8));
         assert_eq!(column.increment, 1e-5 * 333.0);
@@ -173,6 +214,7 @@ mod tests {
             derivatives: Vec::new(),
             increment: 0.5,
             is_load: true,
+            place: None,
         };
         column.difference(&[1.0, 2.0], &[1.5, 0.0]);
         assert_eq!(column.derivatives, [1.0, -4.0]);

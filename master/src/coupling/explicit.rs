@@ -2,16 +2,17 @@
 
 use std::time::Instant;
 
-use super::columns::Columns;
+use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
 use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
+use super::unknowns::Unknowns;
 use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::results::Verdict;
 use crate::scene::Increment;
-use crate::signal::{Curve, History};
+use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
 
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
@@ -33,7 +34,9 @@ impl Explicit {
     /// The method with time constant `mu` (s), from trial values of the coupling variables.
     pub fn new(mu: f64, increment: Increment, history: History, parts: &Parts) -> Self {
         let size = parts.layout.variables();
-        let system = System::new(&parts.layout);
+        let unknowns = Unknowns::ends(&parts.layout);
+        let columns = Columns::new(increment, &parts.layout, &unknowns);
+        let system = System::new(&parts.layout, unknowns);
         Self {
             condition: Condition::Baumgarte {
                 beta: 2.0 * mu,
@@ -44,7 +47,7 @@ impl Explicit {
             values: history.newest().to_vec(),
             history,
             memory: vec![0.0; size],
-            columns: Columns::new(increment, &parts.layout),
+            columns,
             solver: LinearSolver::new(system.pattern()),
             system,
         }
@@ -67,9 +70,11 @@ impl Explicit {
         parts.prepare_advance(step);
         // All variables are held: their polynomials have degree 0.
         let mut over = Over {
-            history: &self.history,
-            curve: Curve::Extrapolated,
-            step: step.length,
+            curves: &Lagrange {
+                history: &self.history,
+                curve: Curve::Extrapolated,
+                length: step.length,
+            },
             memory: &mut self.memory,
         };
         for input in &parts.layout.inputs {
@@ -88,18 +93,25 @@ impl Explicit {
     }
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
-        parts.prepare_prediction(t, 0.0, true);
-        let (history, trial) = (&self.history, self.history.newest());
-        self.columns
-            .request(parts, history, trial, 0.0, true, &mut self.memory);
+        parts.prepare_prediction(t, 0.0);
+        let trial = self.history.newest();
+        let over = |curve| Lagrange {
+            history: &self.history,
+            curve,
+            length: 0.0,
+        };
+        let look = Look {
+            predicted: &over(Curve::Extrapolated),
+            raised: &over(Curve::Interpolated(trial)),
+            ends: trial,
+            with_columns: true,
+        };
+        self.columns.request(parts, look, &mut self.memory);
     }
 
     fn solve(&mut self, parts: &Parts, step: MacroStep, length: f64) -> Result<(), RunError> {
         self.columns.difference(parts);
-        let point = Point {
-            w: self.history.newest(),
-            attitudes: self.history.attitudes(),
-        };
+        let point = Point::ends(self.history.newest(), self.history.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
         self.system
             .assemble(&parts.layout, outputs, self.columns.all(), point);

@@ -2,6 +2,7 @@
 //!
 //! * [`layout`]: which outputs the joints read, which are exchanged, and which inputs are driven;
 //! * [`system`]: `g` and `G = dg/dw` on every level, assembled from the joints and the workers' columns;
+//! * [`unknowns`]: what is solved for of every coupling variable;
 //! * [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
 //! * [`columns`]: increments and finite differences;
@@ -18,3 +19,4 @@ pub mod penalty;
 pub mod semi_implicit;
 pub mod solve;
 pub mod system;
+pub mod unknowns;

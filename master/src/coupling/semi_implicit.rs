@@ -1,17 +1,18 @@
 //! The semi-implicit predictor/corrector methods of Schweizer & Lu (S1 Sects. 2 and 3.3).
 
-use super::columns::Columns;
+use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
 use super::corrector::Corrector;
 use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System, motion_of};
+use super::unknowns::Unknowns;
 use crate::cosimulation::Parts;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::results::{Defect, Verdict};
 use crate::scene::Increment;
-use crate::signal::{Curve, History};
+use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
 
 /// State of a semi-implicit method between two macro steps.
@@ -42,7 +43,9 @@ impl SemiImplicit {
     ) -> Self {
         let size = parts.layout.variables();
         let zeros = || vec![0.0; size];
-        let system = System::new(&parts.layout);
+        let unknowns = Unknowns::ends(&parts.layout);
+        let columns = Columns::new(increment, &parts.layout, &unknowns);
+        let system = System::new(&parts.layout, unknowns);
         Self {
             condition,
             before: history.clone(),
@@ -54,7 +57,7 @@ impl SemiImplicit {
             promised: zeros(),
             shift: zeros(),
             memory: zeros(),
-            columns: Columns::new(increment, &parts.layout),
+            columns,
             solver: LinearSolver::new(system.pattern()),
             system,
         }
@@ -69,10 +72,7 @@ impl Corrector for SemiImplicit {
     /// S1 eqs. (62) to (68), (73) to (76): columns, Jacobian, corrected coupling variables at `T_{N+1}`.
     fn correct(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
         self.columns.difference(parts);
-        let point = Point {
-            w: &self.predicted,
-            attitudes: self.history.attitudes(),
-        };
+        let point = Point::ends(&self.predicted, self.history.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
         self.system
             .assemble(&parts.layout, outputs, self.columns.all(), point);
@@ -91,9 +91,11 @@ impl Corrector for SemiImplicit {
     /// S1 eq. (69): the interpolation through the corrected end value.
     fn request_advance(&mut self, parts: &mut Parts, step: MacroStep) {
         let mut over = Over {
-            history: &self.history,
-            curve: Curve::Interpolated(&self.corrected),
-            step: step.length,
+            curves: &Lagrange {
+                history: &self.history,
+                curve: Curve::Interpolated(&self.corrected),
+                length: step.length,
+            },
             memory: &mut self.memory,
         };
         for input in &parts.layout.inputs {
@@ -115,10 +117,19 @@ impl Corrector for SemiImplicit {
             *predicted = self.history.value(variable, curve, length, length);
         }
         check_finite(&self.predicted, parts, step)?;
-        parts.prepare_prediction(step.start, length, with_columns);
-        let (history, ends) = (&self.history, &self.predicted);
-        self.columns
-            .request(parts, history, ends, length, with_columns, &mut self.memory);
+        parts.prepare_prediction(step.start, length);
+        let over = |curve| Lagrange {
+            history: &self.history,
+            curve,
+            length,
+        };
+        let look = Look {
+            predicted: &over(Curve::Extrapolated),
+            raised: &over(Curve::Interpolated(&self.predicted)),
+            ends: &self.predicted,
+            with_columns,
+        };
+        self.columns.request(parts, look, &mut self.memory);
         Ok(())
     }
 

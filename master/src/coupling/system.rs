@@ -1,18 +1,24 @@
 //! Coupling conditions and Jacobian of the whole scene.
 
+use std::ops::Range;
+
 use nalgebra::UnitQuaternion;
 
 use super::columns::Column;
-use super::layout::{Exchanged, Layout};
+use super::layout::{DrivenInput, Layout};
 use super::pattern::Pattern;
+use super::unknowns::{Term, Unknowns};
 use crate::joint::{End, Level, Motion};
 
-/// `g` and `G = dg/dw` on every level, with `w` the coupling variables: multipliers, then exchanged variables. The rows are
-/// the conditions of the joints, then those of the exchanged variables, `w - y = 0`, which are the same on every level.
-/// Memory is kept from step to step.
+/// `g` and its derivatives `G` with respect to the unknowns on every level. The rows are the conditions of the joints, then
+/// those of the exchanged variables: `w - y = 0`, which is the same on every level; but for variables that have their rate
+/// at the end of the step as a second unknown `w - y = 0`, `H (w' - y') = 0` and, only to tell `y''`, `-H^2 y''`. Memory is
+/// kept from step to step.
 pub struct System {
     level: Level,
     rows: usize,
+    unknowns: Unknowns,
+    variables: Vec<Vec<usize>>,
     pattern: Pattern,
     residuals: [Vec<f64>; 3],
     jacobians: [Vec<f64>; 3],
@@ -27,21 +33,55 @@ pub struct System {
 /// The values about which the system is linearised.
 #[derive(Clone, Copy)]
 pub struct Point<'a> {
-    /// Coupling variables.
+    /// Coupling variables at the end of the step.
     pub w: &'a [f64],
+    /// Coupling variables at the shares of the step at which loads are raised, without the last one, which is the end.
+    pub inner: &'a [Vec<f64>],
+    /// `H w'` at the end of the step, looked at for variables that have it as an unknown.
+    pub rates: &'a [f64],
+    /// `H`
+    pub step: f64,
     /// Attitudes to which rotation vectors are relative.
     pub attitudes: &'a [UnitQuaternion<f64>],
 }
 
+impl<'a> Point<'a> {
+    /// A point where the only unknowns are the values at the end of the step.
+    pub fn ends(w: &'a [f64], attitudes: &'a [UnitQuaternion<f64>]) -> Self {
+        Self {
+            w,
+            inner: &[],
+            rates: &[],
+            step: 0.0,
+            attitudes,
+        }
+    }
+
+    /// Coupling variables at share number `share`.
+    fn at(&self, share: usize) -> &'a [f64] {
+        self.inner.get(share).map_or(self.w, Vec::as_slice)
+    }
+}
+
 impl System {
-    /// The system of `layout`.
-    pub fn new(layout: &Layout) -> Self {
+    /// The system of `layout` for these unknowns.
+    pub fn new(layout: &Layout, unknowns: Unknowns) -> Self {
         let size = layout.variables();
-        let pattern = Pattern::new(size, |visit| visit_entries(layout, visit));
+        let variables = layout.inputs.iter().map(|input| {
+            let mut variables = Vec::new();
+            input.variables(&mut variables);
+            variables
+        });
+        let variables: Vec<_> = variables.collect();
+        let pattern = Pattern::new(unknowns.len(), |visit| {
+            visit_entries(layout, &unknowns, &variables, visit);
+        });
         let entries = pattern.entries();
         Self {
             level: layout.level,
             rows: layout.rows.len(),
+            unknowns,
+            variables,
             residuals: std::array::from_fn(|_| vec![0.0; size]),
             jacobians: std::array::from_fn(|_| vec![0.0; entries]),
             combined_residual: vec![0.0; size],
@@ -49,9 +89,14 @@ impl System {
             rhs: vec![0.0; size],
             motions: Vec::with_capacity(layout.joints.len()),
             gradients: Vec::new(),
-            gradient_starts: Vec::with_capacity(layout.inputs.len() + 1),
+            gradient_starts: Vec::new(),
             pattern,
         }
+    }
+
+    /// The unknowns.
+    pub fn unknowns(&self) -> &Unknowns {
+        &self.unknowns
     }
 
     /// Highest level.
@@ -78,20 +123,21 @@ impl System {
         columns: &[Column],
         point: Point<'_>,
     ) {
-        self.motions.clear();
-        let joints = 0..layout.joints.len();
-        self.motions
-            .extend(joints.map(|joint| motion_of(layout, joint, outputs)));
         self.assemble_residuals(layout, outputs, point);
         self.assemble_jacobians(layout, outputs, columns, point);
     }
 
-    fn assemble_residuals<'a>(
+    /// Only the conditions; the Jacobians stay as they are.
+    pub fn assemble_residuals<'a>(
         &mut self,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64] + Copy,
         point: Point<'_>,
     ) {
+        self.motions.clear();
+        let joints = 0..layout.joints.len();
+        self.motions
+            .extend(joints.map(|joint| motion_of(layout, joint, outputs)));
         let mut row = 0;
         for (joint, motion) in layout.joints.iter().zip(&self.motions) {
             for condition in joint.joint.conditions() {
@@ -104,10 +150,23 @@ impl System {
         }
         for exchanged in &layout.exchanged {
             let shown = exchanged.read(outputs(exchanged.subsystem), point.attitudes, point.w);
-            for (component, shown) in shown.iter().take(exchanged.size()).enumerate() {
-                let variable = exchanged.first + component;
+            let variables = exchanged.first..exchanged.first + exchanged.size();
+            for (&shown, variable) in shown.iter().zip(variables) {
                 for &level in self.level.up_to() {
                     self.residuals[level as usize][variable] = point.w[variable] - shown;
+                }
+            }
+            if let Some(rates) = &exchanged.rates {
+                let own = outputs(exchanged.subsystem);
+                let phi = exchanged.vector(point.w);
+                let speed = rates.speed(own, &phi);
+                let acceleration = rates.acceleration(own);
+                for component in 0..exchanged.size() {
+                    let variable = exchanged.first + component;
+                    self.residuals[Level::Velocity as usize][variable] =
+                        point.rates[variable] - point.step * speed[component];
+                    self.residuals[Level::Acceleration as usize][variable] =
+                        -point.step * point.step * acceleration[component];
                 }
             }
         }
@@ -133,11 +192,12 @@ impl System {
     fn differentiate_inputs(&mut self, layout: &Layout, point: Point<'_>) {
         self.gradients.clear();
         self.gradient_starts.clear();
-        for input in &layout.inputs {
-            self.gradient_starts.push(self.gradients.len());
-            input.gradient(point.w, point.attitudes, &mut self.gradients);
+        for (number, input) in layout.inputs.iter().enumerate() {
+            for raised in 0..self.unknowns.columns(number).len() {
+                self.gradient_starts.push(self.gradients.len());
+                input.gradient(point.at(raised), point.attitudes, &mut self.gradients);
+            }
         }
-        self.gradient_starts.push(self.gradients.len());
     }
 
     /// In the order of [`visit_entries`].
@@ -153,14 +213,22 @@ impl System {
                 let bound = &joint.ends[end as usize];
                 let own = outputs(bound.subsystem);
                 for input in layout.input_range(bound.subsystem) {
-                    if columns[input].derivatives.is_empty() {
-                        continue;
-                    }
-                    let change = bound.change(own, &columns[input].derivatives);
-                    for condition in joint.joint.conditions() {
-                        let motion = &self.motions[number];
-                        let responses = condition.changes(self.level, motion, end, &change);
-                        slot = self.spread(input, responses, slot);
+                    for (raised, column) in self.unknowns.columns(input).enumerate() {
+                        if columns[column].derivatives.is_empty() {
+                            continue;
+                        }
+                        let change = bound.change(own, &columns[column].derivatives);
+                        let raised = Raised {
+                            input: &layout.inputs[input],
+                            number: input,
+                            raised,
+                            column,
+                        };
+                        for condition in joint.joint.conditions() {
+                            let motion = &self.motions[number];
+                            let responses = condition.changes(self.level, motion, end, &change);
+                            slot = self.spread(raised, responses, slot);
+                        }
                     }
                 }
             }
@@ -179,30 +247,61 @@ impl System {
         for exchanged in &layout.exchanged {
             let own = outputs(exchanged.subsystem);
             for _ in 0..exchanged.size() {
-                self.add(slot, [1.0; 3]);
-                slot += 1;
+                for unit in exchanged.units() {
+                    self.add(slot, *unit);
+                    slot += 1;
+                }
             }
             for input in layout.input_range(exchanged.subsystem) {
-                let column = &columns[input].derivatives;
-                if column.is_empty() {
-                    continue;
-                }
-                let change = exchanged.change(own, point.attitudes, point.w, column);
-                for component in 0..exchanged.size() {
-                    slot = self.spread(input, [-change[component]; 3], slot);
+                for (raised, column) in self.unknowns.columns(input).enumerate() {
+                    let derivatives = &columns[column].derivatives;
+                    if derivatives.is_empty() {
+                        continue;
+                    }
+                    let changes = exchanged.changes(own, point, derivatives);
+                    let raised = Raised {
+                        input: &layout.inputs[input],
+                        number: input,
+                        raised,
+                        column,
+                    };
+                    for component in 0..exchanged.size() {
+                        let responses = changes.map(|change| -change[component]);
+                        slot = self.spread(raised, responses, slot);
+                    }
                 }
             }
         }
     }
 
-    /// Adds the responses of one row to one input, one for each level, to the entries of the variables behind the input.
-    fn spread(&mut self, input: usize, responses: [f64; 3], slot: usize) -> usize {
-        let gradient = self.gradient_starts[input]..self.gradient_starts[input + 1];
-        let next = slot + gradient.len();
-        for (slot, factor) in (slot..).zip(gradient) {
-            let factor = self.gradients[factor];
-            self.add(slot, responses.map(|response| response * factor));
-        }
+    /// Adds the responses of one row to one raised input, one for each level, to the entries of the unknowns behind the
+    /// input.
+    fn spread(&mut self, raised: Raised<'_>, responses: [f64; 3], slot: usize) -> usize {
+        let Self {
+            unknowns,
+            variables,
+            gradients,
+            gradient_starts,
+            jacobians,
+            pattern,
+            level,
+            ..
+        } = self;
+        let gradient = &gradients[gradient_starts[raised.column]..];
+        let mut next = slot;
+        unknowns.visit_terms(
+            raised.input,
+            &variables[raised.number],
+            raised.raised,
+            &mut |term| {
+                let factor = gradient[term.entry] * term.factor;
+                let entry = pattern.entry(next);
+                for &level in level.up_to() {
+                    jacobians[level as usize][entry] += responses[level as usize] * factor;
+                }
+                next += 1;
+            },
+        );
         next
     }
 
@@ -263,41 +362,55 @@ impl System {
     }
 }
 
+/// An input that is raised in one of its shapes.
+#[derive(Clone, Copy)]
+struct Raised<'a> {
+    input: &'a DrivenInput,
+    /// Its number.
+    number: usize,
+    /// Number of the shape.
+    raised: usize,
+    /// Number of its column.
+    column: usize,
+}
+
 /// Visits row and column of every term of the Jacobian, in the order in which they are assembled.
-fn visit_entries(layout: &Layout, visit: &mut dyn FnMut(usize, usize)) {
-    let mut variables = Vec::new();
-    let mut first_row = 0;
-    for joint in &layout.joints {
-        let conditions = joint.joint.len();
-        for bound in &joint.ends {
-            for input in layout.inputs_of(bound.subsystem) {
-                for row in first_row..first_row + conditions {
-                    variables.clear();
-                    if input.perturbed.is_some() {
-                        input.variables(&mut variables);
-                    }
-                    variables.iter().for_each(|&variable| visit(row, variable));
+fn visit_entries(
+    layout: &Layout,
+    unknowns: &Unknowns,
+    variables: &[Vec<usize>],
+    visit: &mut dyn FnMut(usize, usize),
+) {
+    let visit_row = |subsystem: usize, rows: Range<usize>, visit: &mut dyn FnMut(usize, usize)| {
+        for input in layout.input_range(subsystem) {
+            let driven = &layout.inputs[input];
+            if !driven.is_perturbed {
+                continue;
+            }
+            for raised in 0..unknowns.columns(input).len() {
+                for row in rows.clone() {
+                    let mut visit = |term: Term| visit(row, term.unknown);
+                    unknowns.visit_terms(driven, &variables[input], raised, &mut visit);
                 }
             }
         }
-        first_row += conditions;
+    };
+    let mut first_row = 0;
+    for joint in &layout.joints {
+        let rows = first_row..first_row + joint.joint.len();
+        for bound in &joint.ends {
+            visit_row(bound.subsystem, rows.clone(), visit);
+        }
+        first_row = rows.end;
     }
     for exchanged in &layout.exchanged {
-        visit_exchanged(layout, exchanged, visit);
-    }
-}
-
-fn visit_exchanged(layout: &Layout, exchanged: &Exchanged, visit: &mut dyn FnMut(usize, usize)) {
-    let own = exchanged.first..exchanged.first + exchanged.size();
-    own.clone().for_each(|variable| visit(variable, variable));
-    let mut variables = Vec::new();
-    let perturbed = layout.inputs_of(exchanged.subsystem).iter();
-    for input in perturbed.filter(|input| input.perturbed.is_some()) {
-        variables.clear();
-        input.variables(&mut variables);
-        for row in own.clone() {
-            variables.iter().for_each(|&variable| visit(row, variable));
+        let own = exchanged.first..exchanged.first + exchanged.size();
+        for variable in own.clone() {
+            unknowns
+                .of(variable)
+                .for_each(|unknown| visit(variable, unknown));
         }
+        visit_row(exchanged.subsystem, own, visit);
     }
 }
 

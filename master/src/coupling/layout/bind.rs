@@ -166,6 +166,7 @@ impl<'a> Binder<'a> {
             subsystem,
             first,
             what,
+            rates: None,
         });
         first
     }
@@ -204,7 +205,7 @@ impl<'a> Binder<'a> {
                 place: 0,
                 name: name.to_owned(),
                 is_joint_input,
-                perturbed: None,
+                is_perturbed: false,
                 source: Source::Sum(Vec::new()),
             });
             inputs.len() - 1
@@ -224,14 +225,9 @@ impl<'a> Binder<'a> {
             let own = inputs.partition_point(|input| input.subsystem <= subsystem);
             // A subsystem whose outputs nobody reads has no response to tell.
             let is_read = !layout.outputs[subsystem].is_empty();
-            let mut perturbed = 0..;
             for (place, input) in inputs[..own].iter_mut().enumerate() {
                 input.place = place;
-                input.perturbed = match input.source {
-                    Source::Attitude { .. } => None,
-                    Source::Sum(_) | Source::Load(_) if !is_read => None,
-                    Source::Sum(_) | Source::Load(_) => perturbed.next(),
-                };
+                input.is_perturbed = is_read && !matches!(input.source, Source::Attitude { .. });
             }
             *range = start..start + own;
             start += own;

@@ -6,6 +6,8 @@
 use linchpin_proto::joint_load::{Displacement, Pose};
 use nalgebra::{UnitQuaternion, Vector3};
 
+use super::marker::vector;
+use crate::coupling::system::Point;
 use crate::signal::attitude::{
     attitude, rotation_of_change, rotation_vector, small_rotation, unit_quaternion, vector_change,
 };
@@ -22,6 +24,29 @@ pub struct Exchanged {
     pub first: usize,
     /// What it is.
     pub what: What,
+    /// Where its rates stand, if its curve is made of them too.
+    pub rates: Option<Rates>,
+}
+
+/// Places of the rates of an exchanged variable in the outputs; of an attitude angular velocity and acceleration.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rates {
+    /// First time derivative.
+    pub speed: Vec<usize>,
+    /// Second time derivative; empty if it is not read.
+    pub acceleration: Vec<usize>,
+}
+
+impl Rates {
+    /// First time derivatives of the variables; `phi` is the rotation vector if they are one, otherwise 0.
+    pub fn speed(&self, outputs: &[f64], phi: &Vector3<f64>) -> Vector3<f64> {
+        vector_change(phi, &vector(&self.speed, outputs))
+    }
+
+    /// Second time derivatives of the variables, of a rotation vector where it is 0.
+    pub fn acceleration(&self, outputs: &[f64]) -> Vector3<f64> {
+        vector(&self.acceleration, outputs)
+    }
 }
 
 /// What is exchanged.
@@ -63,6 +88,35 @@ impl Exchanged {
                 rotation_vector(&attitudes[attitude], &q, &vector_at(near, self.first))
             }
         }
+    }
+
+    /// The rotation vector in the values `w` of all variables if this is one; otherwise 0.
+    pub fn vector(&self, w: &[f64]) -> Vector3<f64> {
+        match self.what {
+            What::Output(_) => Vector3::zeros(),
+            What::Attitude { .. } => vector_at(w, self.first),
+        }
+    }
+
+    /// Derivatives of the conditions on every level with respect to each unknown of a variable.
+    pub fn units(&self) -> &'static [[f64; 3]] {
+        match self.rates {
+            None => &[[1.0; 3]],
+            Some(_) => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        }
+    }
+
+    /// The changes of the variables, `H` times their rates and `H^2` times their second derivatives that go with a change
+    /// `column` of the outputs; without rates the change of the variables on every level.
+    pub fn changes(&self, outputs: &[f64], point: Point<'_>, column: &[f64]) -> [Vector3<f64>; 3] {
+        let change = self.change(outputs, point.attitudes, point.w, column);
+        let Some(rates) = &self.rates else {
+            return [change; 3];
+        };
+        let step = point.step;
+        let speed = rates.speed(column, &self.vector(point.w));
+        let acceleration = rates.acceleration(column);
+        [change, step * speed, step * step * acceleration]
     }
 
     /// The change of [`Exchanged::read`] that goes with a change `column` of the outputs.

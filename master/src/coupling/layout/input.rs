@@ -7,7 +7,8 @@ use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::exchanged::PoseVariables;
-use crate::signal::{Curve, History, combine};
+use crate::coupling::unknowns::Unknowns;
+use crate::signal::{Curves, combine};
 
 /// An input of a subsystem and what drives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,8 +21,8 @@ pub struct DrivenInput {
     pub name: String,
     /// Whether it belongs to a joint load.
     pub is_joint_input: bool,
-    /// Place among the perturbed inputs of its subsystem; absent for what is not perturbed.
-    pub perturbed: Option<usize>,
+    /// Whether the response to it is asked for.
+    pub is_perturbed: bool,
     /// What drives it.
     pub source: Source,
 }
@@ -143,40 +144,34 @@ impl DrivenInput {
     /// The signal over the step of `over`.
     pub fn signal(&self, over: &mut Over<'_>, signal: &mut Signal) {
         match &self.source {
-            Source::Sum(combination) => {
-                over.history
-                    .signal(combination, over.curve, over.step, signal);
-            }
+            Source::Sum(combination) => over.curves.signal(combination, signal),
             Source::Attitude { .. } => {
-                signal.set_constant(self.value(&[], over.history.attitudes()));
+                signal.set_constant(self.value(&[], over.curves.attitudes()));
             }
-            Source::Load(load) => load.signal(over, 0.0, signal),
+            Source::Load(load) => load.signal(over, signal),
         }
     }
 
-    /// The signal that is `increment` higher at the end of the step, otherwise through the same nodes; the curve has to be
-    /// an interpolation.
-    pub fn raised_signal(&self, over: &mut Over<'_>, increment: f64, signal: &mut Signal) {
-        match &self.source {
-            Source::Load(load) => load.signal(over, increment, signal),
-            Source::Sum(_) | Source::Attitude { .. } => {
-                self.signal(over, signal);
-                if let Some(end) = signal.values.first_mut() {
-                    *end += increment;
-                }
-            }
+    /// The signal that is higher by `increment` times shape number `raised` of its variables.
+    pub fn raised_signal(
+        &self,
+        over: &mut Over<'_>,
+        raised: usize,
+        increment: f64,
+        signal: &mut Signal,
+    ) {
+        self.signal(over, signal);
+        let leading = Unknowns::leading(self);
+        for (value, &tau) in signal.values.iter_mut().zip(&signal.nodes) {
+            *value += increment * over.curves.shape(leading, raised, tau);
         }
     }
 }
 
 /// The step that signals are made for.
 pub struct Over<'a> {
-    /// The variables at past macro points.
-    pub history: &'a History,
-    /// Which polynomials.
-    pub curve: Curve<'a>,
-    /// Length of the step.
-    pub step: f64,
+    /// The variables over the step.
+    pub curves: &'a dyn Curves,
     /// Memory for one value of every variable.
     pub memory: &'a mut [f64],
 }
@@ -212,40 +207,38 @@ impl Load {
         }
     }
 
+    /// The multiplier in whose shapes the load is raised.
+    pub fn leading(&self) -> usize {
+        self.turning.first().map_or(0, |first| first.multiplier)
+    }
+
     /// The polynomial through samples of the load under the curves of all variables, at Chebyshev points that include both
-    /// ends of the step; a single one stands at its end. The end value is raised in the shape of the first multiplier's
-    /// interpolation.
-    fn signal(&self, over: &mut Over<'_>, increment: f64, signal: &mut Signal) {
+    /// ends of the step; a single one stands at its end.
+    fn signal(&self, over: &mut Over<'_>, signal: &mut Signal) {
         signal.nodes.clear();
         signal.values.clear();
-        let leading = self.turning.first().map_or(0, |first| first.multiplier);
+        let step = over.curves.length();
         for node in 0..=self.degree {
             let tau = match self.degree {
-                0 => over.step,
+                0 => step,
                 degree => {
                     let angle = PI * node as f64 / degree as f64;
-                    0.5 * over.step * (1.0 - angle.cos())
+                    0.5 * step * (1.0 - angle.cos())
                 }
             };
             self.sample_variables(over, tau);
-            let value = self.value(over.memory, over.history.attitudes());
-            let raised = increment * over.history.end_basis(leading, over.step, tau);
             signal.nodes.push(tau);
-            signal.values.push(value + raised);
+            signal
+                .values
+                .push(self.value(over.memory, over.curves.attitudes()));
         }
     }
 
     /// Writes the values at `tau` of all variables that the load depends on.
     fn sample_variables(&self, over: &mut Over<'_>, tau: f64) {
-        let Over {
-            history,
-            curve,
-            step,
-            ref mut memory,
-        } = *over;
-        let mut sample = |variable: usize| {
-            memory[variable] = history.value(variable, curve, step, tau);
-        };
+        let curves = over.curves;
+        let memory = &mut *over.memory;
+        let mut sample = |variable: usize| memory[variable] = curves.value(variable, tau);
         self.fixed
             .iter()
             .for_each(|&(variable, _)| sample(variable));

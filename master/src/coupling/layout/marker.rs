@@ -143,7 +143,7 @@ impl BoundEnd {
 }
 
 /// The first three of some values; missing ones are 0.
-fn vector(places: &[usize], values: &[f64]) -> Vector3<f64> {
+pub(super) fn vector(places: &[usize], values: &[f64]) -> Vector3<f64> {
     let mut vector = Vector3::zeros();
     for (component, &place) in vector.iter_mut().zip(places) {
         *component = values[place];

@@ -18,7 +18,7 @@ use linchpin_proto::v1;
 use nalgebra::UnitQuaternion;
 
 pub use exchanged::{Exchanged, What};
-pub use input::{DrivenInput, Over};
+pub use input::{DrivenInput, Over, Source};
 pub use marker::BoundEnd;
 pub use springs::springs_at;
 
@@ -161,12 +161,6 @@ impl Layout {
     /// Places of these in [`Layout::inputs`].
     pub fn input_range(&self, subsystem: usize) -> Range<usize> {
         self.ranges[subsystem].clone()
-    }
-
-    /// Number of perturbed inputs of one subsystem.
-    pub fn perturbed_inputs(&self, subsystem: usize) -> usize {
-        let inputs = self.inputs_of(subsystem).iter();
-        inputs.filter(|input| input.perturbed.is_some()).count()
     }
 
     /// The joint of a row.
