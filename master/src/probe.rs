@@ -265,6 +265,7 @@ fn memory_of(scene: &Scene) -> Result<usize, ProbeError> {
     let degree = scene.coupling.degree;
     match scene.coupling.method {
         Method::Baumgarte { .. } | Method::Weighted { .. } => Ok(degree + 1),
+        Method::Hermite { variant } => Ok(usize::from(!variant.starts_anew())),
         // The multipliers follow from the states at the same macro point.
         Method::Explicit { .. } => Ok(0),
         Method::Jacobi { .. } | Method::GaussSeidel { .. } if degree == 0 => Ok(0),

@@ -2,10 +2,9 @@
 
 use linchpin_proto::v1;
 
-use crate::coupling::layout::input::Source;
-use crate::coupling::layout::{Layout, LoadForm};
+use crate::coupling::layout::{DrivenInput, Layout, LoadForm, Source};
 use crate::error::RunError;
-use crate::scene::{self, Loads, Scene};
+use crate::scene::{self, Loads, Method, Scene};
 
 /// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
 const LOAD_DEGREE: usize = 5;
@@ -44,24 +43,9 @@ pub(super) fn check_degrees(
     models: &[v1::Model],
     layout: &Layout,
 ) -> Result<(), RunError> {
-    let coupling = &scene.coupling;
-    let exchanged = layout.rows.len()..layout.variables();
     for input in &layout.inputs {
-        let (degree, key) = match &input.source {
-            Source::Attitude { .. } => continue,
-            Source::Sum(terms)
-                if terms
-                    .iter()
-                    .all(|(variable, _)| exchanged.contains(variable)) =>
-            {
-                (coupling.exchanged_degree, "coupling.exchanged_degree")
-            }
-            Source::Sum(_) => (coupling.degree, "coupling.degree"),
-            // The direction of a load is no polynomial; of a lower degree it would spoil the order of the method.
-            Source::Load(_) if coupling.exchanged_degree > coupling.degree => {
-                (coupling.exchanged_degree, "coupling.exchanged_degree")
-            }
-            Source::Load(_) => (coupling.degree, "coupling.degree"),
+        let Some((degree, key)) = sent_degree(&scene.coupling, layout, input) else {
+            continue;
         };
         let model = &models[input.subsystem];
         if let Some(highest) = highest(model).filter(|highest| *highest < degree) {
@@ -69,11 +53,55 @@ pub(super) fn check_degrees(
                 "the model \"{}\" of subsystem \"{}\" takes inputs of degree {highest} at most, found {degree}",
                 model.name, scene.subsystems[input.subsystem].name
             );
-            let help = format!("choose {key} = {highest}");
+            let help = match key {
+                VARIANT => "choose another variant or method".to_owned(),
+                key => format!("choose {key} = {highest}"),
+            };
             return Err(scene.error(key, message, Some(help)).into());
         }
     }
     Ok(())
+}
+
+/// The key that determines the degrees of Hermite coupling.
+const VARIANT: &str = "coupling.variant";
+
+/// Degree of the polynomials that an input is sent, and the key that determines it; `None` for what is constant on a step.
+fn sent_degree(
+    coupling: &scene::Coupling,
+    layout: &Layout,
+    input: &DrivenInput,
+) -> Option<(usize, &'static str)> {
+    let exchanged = layout.rows.len()..layout.variables();
+    let of_multipliers = (coupling.degree, "coupling.degree");
+    let of_exchanged = (coupling.exchanged_degree, "coupling.exchanged_degree");
+    let is_exchanged = match &input.source {
+        Source::Attitude { .. } => return None,
+        Source::Sum(terms) => terms
+            .iter()
+            .all(|(variable, _)| exchanged.contains(variable)),
+        // The direction of a load is no polynomial; of a lower degree it would spoil the order of the method.
+        Source::Load(_) => coupling.exchanged_degree > coupling.degree,
+    };
+    let Method::Hermite { variant } = coupling.method else {
+        return Some(if is_exchanged {
+            of_exchanged
+        } else {
+            of_multipliers
+        });
+    };
+    let is_signal = match &input.source {
+        Source::Sum(terms) => terms
+            .iter()
+            .any(|(variable, _)| layout.is_signal(*variable)),
+        Source::Attitude { .. } | Source::Load(_) => false,
+    };
+    let is_load_of_fixed_direction = matches!(input.source, Source::Sum(_)) && !is_exchanged;
+    Some(match (is_signal, is_load_of_fixed_direction) {
+        (true, _) => of_exchanged,
+        (_, true) => (variant.degree(), VARIANT),
+        (false, false) => (variant.motion_degree(), VARIANT),
+    })
 }
 
 /// Highest degree of a polynomial that the worker takes, if there is a limit.

@@ -19,7 +19,7 @@ use std::time::Instant;
 use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
 
 pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
-pub use subsystem::Subsystem;
+pub use subsystem::{Ahead, Subsystem};
 pub use tie::multiplier_columns;
 pub use velocities::FreeVelocity;
 
@@ -173,20 +173,37 @@ impl Parts {
     /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0; subsystems whose outputs nobody
     /// reads have nothing to tell. The signals are filled in by the method.
     pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {
+        self.prepare_look(Ahead::Step, t, length);
+    }
+
+    /// Makes every subsystem's next request evaluate its outputs at `t`, beside a prediction.
+    pub(crate) fn prepare_evaluation(&mut self, t: f64) {
+        self.prepare_look(Ahead::Now, t, 0.0);
+    }
+
+    fn prepare_look(&mut self, ahead: Ahead, t: f64, length: f64) {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
-            let inputs = self.layout.inputs_of(number).len();
             if !subsystem.is_read() {
                 continue;
             }
-            let predict = subsystem.request.predict.get_or_insert_default();
-            predict.t = t;
-            predict.step = length;
-            predict.signals.resize_with(inputs, Default::default);
+            let look = subsystem.look(ahead);
+            look.t = t;
+            look.step = length;
+            let inputs = self.layout.inputs_of(number).len();
+            look.signals.resize_with(inputs, Default::default);
+        }
+    }
+
+    /// Makes no subsystem evaluate its outputs beside a prediction.
+    pub(crate) fn forgo_evaluation(&mut self) {
+        for subsystem in &mut self.subsystems {
+            subsystem.request.evaluate = None;
         }
     }
 
     /// Makes no subsystem look ahead.
     pub(crate) fn forgo_prediction(&mut self) {
+        self.forgo_evaluation();
         for subsystem in &mut self.subsystems {
             subsystem.request.predict = None;
         }

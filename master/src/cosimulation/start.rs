@@ -15,13 +15,14 @@ use crate::connection::{Connection, StartError};
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
+use crate::coupling::hermite::Hermite;
 use crate::coupling::layout::{Coupled, Layout, MarkedJoint, springs_at};
 use crate::coupling::penalty::{Order, Penalty};
 use crate::coupling::semi_implicit::SemiImplicit;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
 use crate::scene::{self, Method, Scene};
-use crate::signal::History;
+use crate::signal::{History, Variables};
 use crate::time::{MacroGrid, MacroStep};
 
 /// Gives the connection to the worker of a subsystem.
@@ -161,6 +162,7 @@ fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
             }
             Layout::with_springs(coupled)
         }
+        Method::Hermite { .. } => Layout::with_rates(coupled, level_of(method)),
         _ => Layout::new(coupled, level_of(method)),
     };
     layout.map_err(|lacks| refuse_marker(scene, lacks))
@@ -169,6 +171,7 @@ fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
 /// A signal and the load of a joint at one input are one polynomial, so they must have one degree.
 fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> {
     let (degree, exchanged) = (scene.coupling.degree, scene.coupling.exchanged_degree);
+    let is_hermite = matches!(scene.coupling.method, Method::Hermite { .. });
     let is_loaded = |connection: &&scene::Connection| {
         let (subsystem, name) = &connection.to;
         let mut inputs = layout.inputs_of(*subsystem).iter();
@@ -177,6 +180,16 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
         })
     };
     match scene.connections.iter().find(is_loaded) {
+        Some(connection) if is_hermite => {
+            let (subsystem, input) = &connection.to;
+            let message = format!(
+                "\"{}.{input}\" takes this signal and the load of a joint, which have different curves with Hermite coupling",
+                scene.subsystems[*subsystem].name
+            );
+            let help = "let the signal act at another marker, or choose another coupling.method";
+            let key = format!("connection.{}.to", connection.name);
+            Err(scene.error(&key, message, Some(help.into())).into())
+        }
         Some(connection) if degree != exchanged => {
             let (subsystem, input) = &connection.to;
             let message = format!(
@@ -267,6 +280,20 @@ fn begin(
     let condition = match coupling.method {
         Method::Baumgarte { beta, gamma, .. } => Condition::Baumgarte { beta, gamma },
         Method::Weighted { a, b, .. } => Condition::Weighted { a, b },
+        Method::Hermite { variant } => {
+            let start = options
+                .established
+                .as_ref()
+                .and_then(|values| values.first());
+            let variables = Variables {
+                degrees: vec![coupling.exchanged_degree; parts.layout.variables()],
+                rotations: Vec::new(),
+            };
+            let values = start.map_or(&values[..variables.degrees.len()], |start| start);
+            let history = History::new(variables, values, attitudes);
+            let method = Hermite::new(variant, coupling.increment, history, parts);
+            return look_ahead(Box::new(method), parts, first_step(grid));
+        }
         Method::Explicit { mu } => {
             let history = History::new(variables, &values, attitudes);
             let mut method = Explicit::new(mu, coupling.increment, history, parts);
@@ -292,11 +319,19 @@ fn begin(
         Some(values) => History::established(variables, coupling.macro_step, values, attitudes),
         None => History::new(variables, &values, attitudes),
     };
-    let mut method = SemiImplicit::new(condition, coupling.increment, history, parts);
-    let first = first_step(grid);
+    let method = SemiImplicit::new(condition, coupling.increment, history, parts);
+    look_ahead(Box::new(method), parts, first_step(grid))
+}
+
+/// Lets a predictor/corrector method look ahead over the first macro step.
+fn look_ahead(
+    mut method: Box<dyn Corrector>,
+    parts: &mut Parts,
+    first: MacroStep,
+) -> Result<Scheme, RunError> {
     method.request_prediction(parts, first, true)?;
     exchange(&mut parts.subsystems, first)?;
-    Ok(Scheme::Corrected(Box::new(method)))
+    Ok(Scheme::Corrected(method))
 }
 
 /// The scene has checked that the time span is at least one step long.

@@ -11,6 +11,15 @@ use crate::connection::{Connection, LastWords};
 use crate::error::RunError;
 use crate::time::MacroStep;
 
+/// How far a look-ahead goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ahead {
+    /// Over the next macro step, or over none where a method asks for nothing else.
+    Step,
+    /// Over none, beside a look-ahead over the next macro step.
+    Now,
+}
+
 /// A subsystem of a running co-simulation.
 pub struct Subsystem {
     name: String,
@@ -244,16 +253,37 @@ impl Subsystem {
         signal_of(&mut advance.signals, place, place)
     }
 
-    /// The signal of driven input `place` in the prediction that was prepared.
-    pub(crate) fn prediction_signal(&mut self, place: usize) -> &mut v1::Signal {
-        let predict = self.request.predict.get_or_insert_default();
-        signal_of(&mut predict.signals, place, place)
+    /// A look-ahead that was prepared.
+    pub(crate) fn look(&mut self, ahead: Ahead) -> &mut v1::Predict {
+        let look = match ahead {
+            Ahead::Step => &mut self.request.predict,
+            Ahead::Now => &mut self.request.evaluate,
+        };
+        look.get_or_insert_default()
     }
 
-    /// Perturbed signal number `perturbed` in the prediction that was prepared, which replaces that of input `place`.
-    pub(crate) fn perturbed_signal(&mut self, perturbed: usize, place: usize) -> &mut v1::Signal {
-        let predict = self.request.predict.get_or_insert_default();
-        signal_of(&mut predict.perturbed, perturbed, place)
+    /// The signal of driven input `place` in a look-ahead that was prepared.
+    pub(crate) fn look_signal(&mut self, ahead: Ahead, place: usize) -> &mut v1::Signal {
+        signal_of(&mut self.look(ahead).signals, place, place)
+    }
+
+    /// Perturbed signal number `perturbed` in a look-ahead that was prepared, which replaces that of input `place`.
+    pub(crate) fn perturbed_signal(
+        &mut self,
+        ahead: Ahead,
+        perturbed: usize,
+        place: usize,
+    ) -> &mut v1::Signal {
+        signal_of(&mut self.look(ahead).perturbed, perturbed, place)
+    }
+
+    /// Coupling outputs of the last look-ahead, and those of its perturbed signals.
+    pub(crate) fn looked(&self, ahead: Ahead) -> (&[f64], &[v1::Outputs]) {
+        let reply = &self.reply;
+        match ahead {
+            Ahead::Step => (self.predicted(), &reply.perturbed),
+            Ahead::Now => (values(reply.evaluated.as_ref()), &reply.evaluated_perturbed),
+        }
     }
 
     /// Coupling outputs at the present macro point.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::layout::{Layout, Over};
 use super::unknowns::Unknowns;
-use crate::cosimulation::Parts;
+use crate::cosimulation::{Ahead, Parts};
 use crate::scene::Increment;
 use crate::signal::Curves;
 
@@ -22,6 +22,7 @@ const AUTOMATIC_EXCHANGED: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Columns {
     rule: Increment,
+    ahead: Ahead,
     columns: Vec<Column>,
     /// The columns of each input.
     of_input: Vec<Range<usize>>,
@@ -45,10 +46,11 @@ pub struct Look<'a> {
 }
 
 impl Columns {
-    /// The columns of the driven inputs of `layout`, one for each shape that it is raised in.
-    pub fn new(rule: Increment, layout: &Layout, unknowns: &Unknowns) -> Self {
+    /// The columns of the driven inputs of `layout` over a look-ahead, one for each shape that an input is raised in.
+    pub fn new(rule: Increment, ahead: Ahead, layout: &Layout, unknowns: &Unknowns) -> Self {
         let mut own = Self {
             rule,
+            ahead,
             columns: Vec::new(),
             of_input: Vec::new(),
             of_subsystem: vec![0; layout.outputs.len()],
@@ -91,7 +93,7 @@ impl Columns {
                 continue;
             }
             over.curves = look.predicted;
-            input.signal(&mut over, subsystem.prediction_signal(input.place));
+            input.signal(&mut over, subsystem.look_signal(self.ahead, input.place));
             if !(input.is_perturbed && look.with_columns) {
                 continue;
             }
@@ -100,7 +102,7 @@ impl Columns {
             for (raised, column) in self.columns[columns.clone()].iter_mut().enumerate() {
                 if let Some(place) = column.place {
                     column.choose_increment(self.rule, end, subsystem.tolerance);
-                    let signal = subsystem.perturbed_signal(place, input.place);
+                    let signal = subsystem.perturbed_signal(self.ahead, place, input.place);
                     input.raised_signal(&mut over, raised, column.increment, signal);
                 }
             }
@@ -109,9 +111,10 @@ impl Columns {
 
     fn make_room(&self, parts: &mut Parts) {
         for (subsystem, &columns) in parts.subsystems.iter_mut().zip(&self.of_subsystem) {
-            if let Some(predict) = &mut subsystem.request.predict {
+            if subsystem.is_read() {
                 let columns = if self.are_fresh { columns } else { 0 };
-                predict.perturbed.resize_with(columns, Default::default);
+                let look = subsystem.look(self.ahead);
+                look.perturbed.resize_with(columns, Default::default);
             }
         }
     }
@@ -122,13 +125,10 @@ impl Columns {
             return;
         }
         for (input, columns) in parts.layout.inputs.iter().zip(&self.of_input) {
-            let subsystem = &parts.subsystems[input.subsystem];
+            let (predicted, perturbed) = parts.subsystems[input.subsystem].looked(self.ahead);
             for column in &mut self.columns[columns.clone()] {
                 if let Some(place) = column.place {
-                    column.difference(
-                        subsystem.predicted(),
-                        &subsystem.reply.perturbed[place].values,
-                    );
+                    column.difference(predicted, &perturbed[place].values);
                 }
             }
         }

@@ -70,6 +70,7 @@ pub fn level_of(method: &Method) -> Level {
             Index::Two => Level::Velocity,
             Index::One => Level::Acceleration,
         },
+        Method::Hermite { variant } => variant.level(),
         Method::Explicit { .. } => Level::Acceleration,
         Method::Jacobi { .. } | Method::GaussSeidel { .. } => Level::Velocity,
     }

@@ -8,7 +8,7 @@ use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
 use super::unknowns::Unknowns;
-use crate::cosimulation::{Outcome, Parts, exchange};
+use crate::cosimulation::{Ahead, Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::results::Verdict;
 use crate::scene::Increment;
@@ -35,7 +35,7 @@ impl Explicit {
     pub fn new(mu: f64, increment: Increment, history: History, parts: &Parts) -> Self {
         let size = parts.layout.variables();
         let unknowns = Unknowns::ends(&parts.layout);
-        let columns = Columns::new(increment, &parts.layout, &unknowns);
+        let columns = Columns::new(increment, Ahead::Step, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
         Self {
             condition: Condition::Baumgarte {

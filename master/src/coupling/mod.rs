@@ -7,15 +7,18 @@
 //! * [`solve`]: the linear solver;
 //! * [`columns`]: increments and finite differences;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
-//! * [`semi_implicit`], [`explicit`], [`penalty`]: one macro step of each family of methods.
+//! * [`promise`]: what a correction promises, and what the workers make of it;
+//! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`]: one macro step of each family of methods.
 
 pub mod columns;
 pub mod condition;
 pub mod corrector;
 pub mod explicit;
+pub mod hermite;
 pub mod layout;
 pub mod pattern;
 pub mod penalty;
+pub mod promise;
 pub mod semi_implicit;
 pub mod solve;
 pub mod system;

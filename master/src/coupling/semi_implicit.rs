@@ -4,13 +4,13 @@ use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
 use super::corrector::Corrector;
 use super::layout::Over;
+use super::promise::Promise;
 use super::solve::LinearSolver;
-use super::system::{Point, System, motion_of};
+use super::system::{Point, System};
 use super::unknowns::Unknowns;
-use crate::cosimulation::Parts;
+use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
-use crate::joint::Level;
-use crate::results::{Defect, Verdict};
+use crate::results::Verdict;
 use crate::scene::Increment;
 use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
@@ -25,8 +25,7 @@ pub struct SemiImplicit {
     predicted: Vec<f64>,
     change: Vec<f64>,
     corrected: Vec<f64>,
-    promised: Vec<f64>,
-    shift: Vec<f64>,
+    promise: Promise,
     memory: Vec<f64>,
     columns: Columns,
     system: System,
@@ -44,7 +43,7 @@ impl SemiImplicit {
         let size = parts.layout.variables();
         let zeros = || vec![0.0; size];
         let unknowns = Unknowns::ends(&parts.layout);
-        let columns = Columns::new(increment, &parts.layout, &unknowns);
+        let columns = Columns::new(increment, Ahead::Step, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
         Self {
             condition,
@@ -54,8 +53,7 @@ impl SemiImplicit {
             predicted: zeros(),
             change: zeros(),
             corrected: zeros(),
-            promised: zeros(),
-            shift: zeros(),
+            promise: Promise::new(size),
             memory: zeros(),
             columns,
             solver: LinearSolver::new(system.pattern()),
@@ -83,8 +81,7 @@ impl Corrector for SemiImplicit {
         for (corrected, (predicted, change)) in self.corrected.iter_mut().zip(ends) {
             *corrected = predicted + change;
         }
-        self.promised
-            .copy_from_slice(self.system.residual(Level::Position));
+        self.promise.take(&self.system);
         check_finite(&self.corrected, parts, step)
     }
 
@@ -142,22 +139,7 @@ impl Corrector for SemiImplicit {
         std::mem::swap(&mut self.history, &mut self.before);
     }
 
-    /// Compares the position conditions at the corrected outputs with what their linearisation promised.
     fn judge(&mut self, parts: &Parts) -> Verdict {
-        self.system
-            .shift(Level::Position, &self.change, &mut self.shift);
-        let corrected = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
-        let mut defect = Defect::default();
-        let mut terms = self.promised.iter().zip(&self.shift);
-        for (number, joint) in parts.layout.joints.iter().enumerate() {
-            let motion = motion_of(&parts.layout, number, corrected);
-            let rows = joint.joint.conditions().zip(&mut terms);
-            for (condition, (promised, shift)) in rows {
-                let found = condition.value(Level::Position, &motion);
-                let extent = condition.extent(Level::Position, &motion);
-                defect.add(*promised, *shift, found, extent);
-            }
-        }
-        defect.verdict()
+        self.promise.judge(&self.system, parts, &self.change)
     }
 }

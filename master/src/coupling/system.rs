@@ -114,6 +114,11 @@ impl System {
         &self.residuals[level as usize]
     }
 
+    /// `G` of one level, entry by entry of the pattern.
+    pub fn jacobian(&self, level: Level) -> &[f64] {
+        &self.jacobians[level as usize]
+    }
+
     /// Conditions and Jacobians at `point`. `outputs(s)` are the coupling outputs of subsystem `s`, `columns` belong to the
     /// inputs of `layout`.
     pub fn assemble<'a>(

@@ -4,7 +4,7 @@ use super::error_kind::{Names, SceneErrorKind};
 use super::formula::{Formula, Unit};
 use super::index::Weights;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
-use super::resolved::{Coupling, Increment, Loads, Method};
+use super::resolved::{Coupling, Increment, Loads, Method, Variant};
 use super::written::Value;
 
 /// The key whose override changes which other keys there are.
@@ -14,9 +14,8 @@ pub(super) const METHOD_KEY: &str = "coupling.method";
 const HIGHEST_DEGREE: usize = 3;
 
 /// Keys that every method has.
-const COMMON: [&str; 6] = [
+const COMMON: [&str; 5] = [
     "method",
-    "degree",
     "exchanged_degree",
     "loads",
     "macro_step",
@@ -30,16 +29,27 @@ const LOADS: [(&str, Loads); 3] = [
     ("master", Loads::Master),
 ];
 
+/// The variants of Hermite coupling.
+const VARIANTS: [(&str, Variant); 5] = [
+    ("apv", Variant::Apv),
+    ("c0pv", Variant::C0pv),
+    ("av", Variant::Av),
+    ("c0v", Variant::C0v),
+    ("c0pva", Variant::C0pva),
+];
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Baumgarte,
     Weighted,
+    Hermite,
     Explicit,
     Jacobi,
     GaussSeidel,
 }
 
-const METHODS: [(&str, Kind); 5] = [
+const METHODS: [(&str, Kind); 6] = [
+    ("hermite", Kind::Hermite),
     ("baumgarte", Kind::Baumgarte),
     ("weighted", Kind::Weighted),
     ("explicit", Kind::Explicit),
@@ -50,10 +60,11 @@ const METHODS: [(&str, Kind); 5] = [
 impl Kind {
     fn parameters(self) -> &'static [&'static str] {
         match self {
-            Self::Baumgarte => &["index", "beta", "gamma"],
-            Self::Weighted => &["index", "a", "b"],
-            Self::Explicit => &["mu"],
-            Self::Jacobi | Self::GaussSeidel => &["stiffness", "damping"],
+            Self::Baumgarte => &["degree", "index", "beta", "gamma"],
+            Self::Weighted => &["degree", "index", "a", "b"],
+            Self::Hermite => &["variant"],
+            Self::Explicit => &["degree", "mu"],
+            Self::Jacobi | Self::GaussSeidel => &["degree", "stiffness", "damping"],
         }
     }
 
@@ -61,6 +72,7 @@ impl Kind {
         match self {
             Self::Baumgarte => "baumgarte",
             Self::Weighted => "weighted",
+            Self::Hermite => "hermite",
             Self::Explicit => "explicit",
             Self::Jacobi => "jacobi",
             Self::GaussSeidel => "gauss-seidel",
@@ -79,7 +91,10 @@ impl Kind {
     }
 
     fn default_exchanged_degree(self, degree: usize) -> usize {
-        self.highest_degree().min(degree.max(2))
+        match self {
+            Self::Hermite => HIGHEST_DEGREE,
+            _ => self.highest_degree().min(degree.max(2)),
+        }
     }
 }
 
@@ -116,9 +131,11 @@ pub(super) fn read(
             read_increment(&field, problems)
         });
     let highest = kind.map_or(HIGHEST_DEGREE, Kind::highest_degree);
-    let degree = match (section.get("degree"), kind) {
-        (Some(field), _) => field.whole(0, highest, problems),
-        (None, kind) => kind.map(Kind::default_degree),
+    let method = kind.and_then(|kind| read_method(kind, section, macro_step, problems));
+    let degree = match (section.get("degree"), kind, method) {
+        (_, _, Some(Method::Hermite { variant })) => Some(variant.degree()),
+        (Some(field), ..) => field.whole(0, highest, problems),
+        (None, kind, _) => kind.map(Kind::default_degree),
     };
     let exchanged_degree = match (section.get("exchanged_degree"), kind, degree) {
         (Some(field), ..) => field.whole(0, highest, problems),
@@ -130,7 +147,6 @@ pub(super) fn read(
         .map_or(Some(Loads::Automatic), |field| {
             field.choice(&LOADS, problems)
         });
-    let method = kind.and_then(|kind| read_method(kind, section, macro_step, problems));
     Some(Coupling {
         method: method?,
         degree: degree?,
@@ -227,6 +243,13 @@ fn read_method(
             };
             let (index, a, b) = weights.resolve(section, macro_step, problems)?;
             Some(Method::Weighted { index, a, b })
+        }
+        Kind::Hermite => {
+            let field = section.get("variant");
+            let variant = field.map_or(Some(Variant::Apv), |field| {
+                field.choice(&VARIANTS, problems)
+            });
+            Some(Method::Hermite { variant: variant? })
         }
         Kind::Explicit => {
             let field = section.require("mu", "mu = \"10H\"", problems)?;

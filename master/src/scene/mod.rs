@@ -40,7 +40,7 @@ pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index, Joint,
     JointKind, Loads, Method, Output, Panel, Reference, RunSettings, Served, Side,
-    StabilitySettings, Subsystem,
+    StabilitySettings, Subsystem, Variant,
 };
 pub use stability_rules::{Warning, warnings};
 pub use subsystem::is_worker_address;

@@ -13,10 +13,12 @@ pub use crate::joint::Kind as JointKind;
 pub struct Coupling {
     /// The coupling method with its parameters.
     pub method: Method,
-    /// Degree k of the Lagrange polynomials of the coupling variables, 0 to 3. Default 1, for the explicit method 0.
+    /// Degree k of the Lagrange polynomials of the coupling variables, 0 to 3. Default 1, for the explicit method 0. With
+    /// Hermite coupling that of the multipliers on a step, which the variant determines.
     pub degree: usize,
     /// Degree of the polynomials of exchanged body variables and connected signals, 0 to 3. Default 2, or the degree of the
-    /// multipliers if that is higher; for the explicit method 0.
+    /// multipliers if that is higher; for the explicit method 0. With Hermite coupling only that of connected signals,
+    /// default 3.
     pub exchanged_degree: usize,
     /// Who evaluates loads whose direction turns with the bodies. Default automatic.
     pub loads: Loads,
@@ -62,6 +64,11 @@ pub enum Method {
         /// Weight of the acceleration; default 2.6.
         b: f64,
     },
+    /// Polynomials of their own on every macro step.
+    Hermite {
+        /// Which conditions fix them; default [`Variant::Apv`].
+        variant: Variant,
+    },
     /// The explicit index-1 method of Gu & Asada: (mu d/dt + 1)^2 g = 0.
     Explicit {
         /// Time constant in s, greater than 0.
@@ -81,6 +88,22 @@ pub enum Method {
         /// Damping in N s/m, 0 or greater; default 0.
         damping: f64,
     },
+}
+
+/// What the multipliers of Hermite coupling are on a macro step: their conditions at its start `T_N` and its end `T_{N+1}`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Variant {
+    /// g'' = 0 at `T_N`; g = 0, g' = 0 at `T_{N+1}`: quadratic.
+    Apv,
+    /// Continuous at `T_N`; g = 0, g' = 0 at `T_{N+1}`: quadratic.
+    C0pv,
+    /// g'' = 0 at `T_N`; g' = 0 at `T_{N+1}`: linear.
+    Av,
+    /// Continuous at `T_N`; g' = 0 at `T_{N+1}`: linear.
+    C0v,
+    /// Continuous at `T_N`; g = 0, g' = 0, g'' = 0 at `T_{N+1}`: cubic.
+    C0pva,
 }
 
 /// Index of the coupled system: which derivatives of the constraint are demanded.

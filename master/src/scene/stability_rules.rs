@@ -78,7 +78,8 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let coupling = &scene.coupling;
     let warning = match (coupling.method, coupling.degree.checked_sub(1)) {
         (Method::Explicit { mu }, _) => below_limit_of_mu(coupling.macro_step, mu),
-        (Method::Jacobi { .. } | Method::GaussSeidel { .. }, _) | (_, None) => None,
+        (Method::Hermite { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. }, _)
+        | (_, None) => None,
         (method, Some(above_constant)) => RULES
             .get(above_constant)
             .and_then(|rule| below_limit(coupling, method, rule)),
@@ -107,7 +108,10 @@ fn below_limit(coupling: &Coupling, method: Method, rule: &Rule) -> Option<Warni
         Method::Baumgarte { index, .. } | Method::Weighted { index, .. } => {
             Some(high_index(coupling.degree, index))
         }
-        Method::Explicit { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => None,
+        Method::Hermite { .. }
+        | Method::Explicit { .. }
+        | Method::Jacobi { .. }
+        | Method::GaussSeidel { .. } => None,
     }
 }
 

@@ -132,14 +132,24 @@ impl History {
 
     /// Number of past nodes of a variable's curve, and its value at the end of the step if that is a node.
     fn nodes(&self, variable: usize, curve: Curve<'_>) -> (usize, Option<f64>) {
+        let end = match curve {
+            Curve::Extrapolated => None,
+            Curve::Interpolated(ends) => Some(ends[variable]),
+        };
+        (self.past_nodes(variable, end.is_some()), end)
+    }
+
+    fn past_nodes(&self, variable: usize, has_end: bool) -> usize {
         let most = self.variables.degrees[variable] + 1;
-        match curve {
-            Curve::Extrapolated => (self.times.len().min(most), None),
-            Curve::Interpolated(ends) => {
-                let nodes = (self.times.len() + 1).min(most);
-                (nodes - 1, Some(ends[variable]))
-            }
+        match has_end {
+            false => self.times.len().min(most),
+            true => (self.times.len() + 1).min(most) - 1,
         }
+    }
+
+    /// Highest degree of the polynomial of a variable.
+    pub fn degree(&self, variable: usize) -> usize {
+        self.variables.degrees[variable]
     }
 
     /// The signal of `sum_i factor_i variable_i`, all of one degree.
@@ -169,7 +179,13 @@ impl History {
     ///
     /// Not a number if the history is not finite; that is found when the multipliers are checked.
     pub fn value(&self, variable: usize, curve: Curve<'_>, step: f64, tau: f64) -> f64 {
-        let (past, end) = self.nodes(variable, curve);
+        let (_, end) = self.nodes(variable, curve);
+        self.value_through(variable, end, step, tau)
+    }
+
+    /// Value at `tau` of one variable's interpolation through the end value `end`, or of its extrapolation.
+    pub fn value_through(&self, variable: usize, end: Option<f64>, step: f64, tau: f64) -> f64 {
+        let past = self.past_nodes(variable, end.is_some());
         let (mut nodes, mut values) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let mut len = 0;
         if let Some(end) = end {
@@ -187,9 +203,7 @@ impl History {
     /// Value at `tau` of the polynomial of a variable's interpolation that is 1 at the end of the step and 0 at its other
     /// nodes.
     pub fn end_basis(&self, variable: usize, step: f64, tau: f64) -> f64 {
-        let most = self.variables.degrees[variable] + 1;
-        let past = (self.times.len() + 1).min(most) - 1;
-        let factors = self.times[..past].iter();
+        let factors = self.times[..self.past_nodes(variable, true)].iter();
         factors.map(|time| (tau - time) / (step - time)).product()
     }
 }

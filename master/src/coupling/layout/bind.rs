@@ -1,13 +1,14 @@
 //! Ties joints and connections to inputs and outputs.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use linchpin_proto::joint_load::{End, Reads};
 
-use super::exchanged::{Exchanged, PoseVariables, Turning, What};
+use super::exchanged::{Exchanged, PoseVariables, Rates, Turning, What};
 use super::input::{DrivenInput, Source};
 use super::loads::NamedLoad;
-use super::marker::{BoundEnd, Parts};
+use super::marker::{BoundEnd, Parts, outputs_of};
 use super::{BoundJoint, Coupled, Lack, Layout, MarkedJoint, MarkerLacks, Row};
 use crate::joint::Level;
 
@@ -16,6 +17,7 @@ pub(super) struct Binder<'a> {
     pub(super) layout: Layout,
     pub(super) coupled: &'a Coupled<'a>,
     pub(super) loads: Vec<NamedLoad>,
+    has_rates: bool,
 }
 
 impl Layout {
@@ -24,7 +26,20 @@ impl Layout {
     /// # Errors
     /// The first marker that lacks something.
     pub fn new(coupled: &Coupled<'_>, level: Level) -> Result<Self, MarkerLacks> {
+        Self::tied(coupled, level, false)
+    }
+
+    /// The same, but exchanged motion comes with its rates up to `level`.
+    ///
+    /// # Errors
+    /// The first marker that lacks something.
+    pub fn with_rates(coupled: &Coupled<'_>, level: Level) -> Result<Self, MarkerLacks> {
+        Self::tied(coupled, level, true)
+    }
+
+    fn tied(coupled: &Coupled<'_>, level: Level, has_rates: bool) -> Result<Self, MarkerLacks> {
         let mut binder = Binder::new(coupled, level)?;
+        binder.has_rates = has_rates;
         for row in 0..binder.layout.rows.len() {
             for end in End::BOTH {
                 binder.load_end(row, end)?;
@@ -32,7 +47,7 @@ impl Layout {
         }
         for connection in coupled.connections {
             let (subsystem, output) = &connection.from;
-            let variable = binder.exchange_output(*subsystem, output);
+            let variable = binder.exchange_output(*subsystem, output, None);
             let (subsystem, input) = &connection.to;
             binder.drive(*subsystem, input, (variable, 1.0));
         }
@@ -58,6 +73,7 @@ impl<'a> Binder<'a> {
             layout,
             coupled,
             loads: Vec::new(),
+            has_rates: false,
         };
         for (number, joint) in coupled.joints.iter().enumerate() {
             binder.bind_joint(number, joint)?;
@@ -107,30 +123,67 @@ impl<'a> Binder<'a> {
         };
         let mut poses = PoseVariables::default();
         if reads.position {
-            let names = marker.position.get(parts.position).ok_or(lacks)?;
-            for name in names {
-                poses.position.push(self.exchange_output(*subsystem, name));
+            let names = marker.position.get(parts.position.clone()).ok_or(lacks)?;
+            for (name, place) in names.iter().zip(parts.position) {
+                let rates = self.rates(joint, end, place..place + 1)?;
+                let variable = self.exchange_output(*subsystem, name, rates);
+                poses.position.push(variable);
             }
         }
         if reads.rotation {
+            let turning = Parts::of(marker.kind(), Level::Velocity).rotation;
+            let rates = self.rates(joint, end, turning)?;
             poses.turning = match marker.position.get(parts.rotation).ok_or(lacks)? {
-                [w, x, y, z] => self.exchange_attitude(*subsystem, &marker.name, [w, x, y, z]),
-                [angle] => Turning::Angle(self.exchange_output(*subsystem, angle)),
+                [w, x, y, z] => {
+                    self.exchange_attitude(*subsystem, &marker.name, [w, x, y, z], rates)
+                }
+                [angle] => Turning::Angle(self.exchange_output(*subsystem, angle, rates)),
                 _ => return Err(lacks),
             };
         }
         Ok(poses)
     }
 
+    /// Where the rates of a marker's motion stand, if they are exchanged with it; `places` in the lists of the marker.
+    fn rates(
+        &mut self,
+        joint: usize,
+        end: End,
+        places: Range<usize>,
+    ) -> Result<Option<Rates>, MarkerLacks> {
+        if !self.has_rates {
+            return Ok(None);
+        }
+        let (subsystem, marker) = &self.coupled.joints[joint].ends[end as usize];
+        let level = self.layout.level;
+        let outputs = &mut self.layout.outputs[*subsystem];
+        let mut find = |of: Level| {
+            if of > level {
+                return Ok(Vec::new());
+            }
+            let names = outputs_of(marker, of).get(places.clone());
+            let names = names.ok_or(MarkerLacks {
+                joint,
+                end: end as usize,
+                what: Lack::Output(of),
+            })?;
+            Ok(names.iter().map(|name| place_of(outputs, name)).collect())
+        };
+        Ok(Some(Rates {
+            speed: find(Level::Velocity)?,
+            acceleration: find(Level::Acceleration)?,
+        }))
+    }
+
     /// The variable of an exchanged output, made if it is not there.
-    fn exchange_output(&mut self, subsystem: usize, output: &str) -> usize {
+    fn exchange_output(&mut self, subsystem: usize, output: &str, rates: Option<Rates>) -> usize {
         let name = format!("{}.{output}", self.coupled.subsystems[subsystem]);
         let known = self.layout.exchanged.iter().find(|one| one.name == name);
         if let Some(known) = known {
             return known.first;
         }
         let place = place_of(&mut self.layout.outputs[subsystem], output);
-        self.exchange(subsystem, name, What::Output(place))
+        self.exchange(subsystem, name, What::Output(place), rates)
     }
 
     fn exchange_attitude(
@@ -138,6 +191,7 @@ impl<'a> Binder<'a> {
         subsystem: usize,
         marker: &str,
         quaternion: [&String; 4],
+        rates: Option<Rates>,
     ) -> Turning {
         let name = format!("{}.{marker}.rotation", self.coupled.subsystems[subsystem]);
         let known = self.layout.exchanged.iter().find(|one| one.name == name);
@@ -155,18 +209,24 @@ impl<'a> Binder<'a> {
         let attitude = self.layout.attitudes().count();
         let outputs = &mut self.layout.outputs[subsystem];
         let places = quaternion.map(|part| place_of(outputs, part));
-        let first = self.exchange(subsystem, name, What::Attitude { places, attitude });
+        let first = self.exchange(subsystem, name, What::Attitude { places, attitude }, rates);
         Turning::Vector { first, attitude }
     }
 
-    fn exchange(&mut self, subsystem: usize, name: String, what: What) -> usize {
+    fn exchange(
+        &mut self,
+        subsystem: usize,
+        name: String,
+        what: What,
+        rates: Option<Rates>,
+    ) -> usize {
         let first = self.layout.variables();
         self.layout.exchanged.push(Exchanged {
             name,
             subsystem,
             first,
             what,
-            rates: None,
+            rates,
         });
         first
     }

@@ -218,8 +218,9 @@ impl Load {
         signal.nodes.clear();
         signal.values.clear();
         let step = over.curves.length();
-        for node in 0..=self.degree {
-            let tau = match self.degree {
+        let degree = if step > 0.0 { self.degree } else { 0 };
+        for node in 0..=degree {
+            let tau = match degree {
                 0 => step,
                 degree => {
                     let angle = PI * node as f64 / degree as f64;

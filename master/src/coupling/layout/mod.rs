@@ -147,6 +147,14 @@ impl Layout {
         Variables { degrees, rotations }
     }
 
+    /// Whether a variable is exchanged without rates.
+    pub fn is_signal(&self, variable: usize) -> bool {
+        let mut exchanged = self.exchanged.iter();
+        exchanged.any(|one| {
+            one.rates.is_none() && (one.first..one.first + one.size()).contains(&variable)
+        })
+    }
+
     /// The exchanged attitudes in their order.
     pub fn attitudes(&self) -> impl Iterator<Item = &Exchanged> {
         let is_attitude = |exchanged: &&Exchanged| matches!(exchanged.what, What::Attitude { .. });

@@ -1,0 +1,279 @@
+//! Hermite coupling: multipliers that are polynomials of their own on every macro step.
+//!
+//! On the step from `T_N` to `T_{N+1}` a multiplier is a polynomial of degree 1 to 3 in `s = (t - T_N)/H`. Nothing of it comes
+//! from steps before but, in the variants that are continuous, its start value. It has as many unknown values at equidistant
+//! nodes as there are conditions ([`Variant`]), for APV
+//!
+//! ```text
+//! lambda(s) = l_0 (1 - s)(1 - 2s) + l_1 4s(1 - s) + l_2 s(2s - 1)
+//! g''(T_N) = 0,   g(T_{N+1}) / H^2 = 0,   g'(T_{N+1}) / H = 0
+//! ```
+//!
+//! For free bodies the velocity at the end takes the mean of a load over the step, the position its mean weighted by `1 - s`:
+//! `l_1` weighs 2/3 and 1/3, `l_2` 1/6 and 0. What the polynomial misses of the true multiplier, `c H^3 s (s - r)(s - 1)..`,
+//! then has no mean of either kind, so positions and velocities feel it only through stiffness, damping and geometry: one
+//! power of `H` for each integration. That is why APV has order 5 where its multipliers have order 3.
+//!
+//! Motion that is exchanged is a polynomial through position and velocity at both ends and the acceleration at the start: the
+//! end values are unknowns, with the conditions that they are what the partner's outputs say ([`arcs`]). All conditions are
+//! linearised about the prediction with columns of the workers for each shape, and solved together ([`stack`]).
+//!
+//! * [`variant`]: which conditions;
+//! * [`arcs`]: the curves of all variables;
+//! * [`stack`]: the equations of all unknowns.
+
+mod arcs;
+mod held;
+mod sample;
+mod share;
+mod stack;
+mod variant;
+
+use super::columns::{Columns, Look};
+use super::condition::{SingularRow, check_finite};
+use super::corrector::Corrector;
+use super::layout::Over;
+use super::promise::Promise;
+use super::solve::{LinearSolver, SingularColumn};
+use super::system::{Point, System};
+use super::unknowns::Unknowns;
+use crate::cosimulation::{Ahead, Parts};
+use crate::error::RunError;
+use crate::joint::Level;
+use crate::results::Verdict;
+use crate::scene::Increment;
+use crate::signal::{Curves, History};
+use crate::time::MacroStep;
+
+use arcs::{Arcs, unknowns_of};
+use held::Held;
+use sample::Sample;
+use stack::Stack;
+pub use variant::Variant;
+
+/// State of Hermite coupling between two macro steps.
+pub struct Hermite {
+    variant: Variant,
+    arcs: Arcs,
+    /// The curves before the last step.
+    before: Arcs,
+    multipliers: Vec<f64>,
+    /// All variables at the start of the step.
+    held: Vec<f64>,
+    start: Linear,
+    end: Linear,
+    stack: Stack,
+    solver: LinearSolver,
+    sample: Sample,
+    memory: Vec<f64>,
+    change: Vec<f64>,
+    accelerations: Vec<f64>,
+    promise: Promise,
+}
+
+/// The conditions at one end of the step and the columns of the workers for them.
+struct Linear {
+    columns: Columns,
+    system: System,
+}
+
+impl Linear {
+    fn new(increment: Increment, ahead: Ahead, parts: &Parts, unknowns: Unknowns) -> Self {
+        Self {
+            columns: Columns::new(increment, ahead, &parts.layout, &unknowns),
+            system: System::new(&parts.layout, unknowns),
+        }
+    }
+
+    fn assemble<'a>(
+        &mut self,
+        parts: &'a Parts,
+        outputs: impl Fn(usize) -> &'a [f64] + Copy,
+        point: Point<'_>,
+    ) {
+        self.columns.difference(parts);
+        self.system
+            .assemble(&parts.layout, outputs, self.columns.all(), point);
+    }
+}
+
+impl Hermite {
+    /// The method from the first macro point, at which the outputs are known and `history` holds all variables.
+    pub fn new(variant: Variant, increment: Increment, history: History, parts: &Parts) -> Self {
+        let layout = &parts.layout;
+        let size = layout.variables();
+        let unknowns = unknowns_of(layout, variant);
+        let mut arcs = Arcs::new(layout, variant, unknowns.clone(), history);
+        start_motion(&mut arcs, parts);
+        let start = Linear::new(increment, Ahead::Now, parts, Unknowns::ends(layout));
+        let sample = Sample::new(&unknowns, size);
+        let change = vec![0.0; unknowns.len()];
+        let end = Linear::new(increment, Ahead::Step, parts, unknowns);
+        let stack = Stack::new(layout, variant, &end.system, &start.system);
+        Self {
+            variant,
+            multipliers: arcs.starts().take(layout.rows.len()).collect(),
+            before: arcs.clone(),
+            arcs,
+            held: vec![0.0; size],
+            start,
+            end,
+            solver: LinearSolver::new(stack.pattern()),
+            stack,
+            sample,
+            memory: vec![0.0; size],
+            change,
+            accelerations: vec![0.0; size],
+            promise: Promise::new(size),
+        }
+    }
+
+    fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
+        parts.prepare_evaluation(t);
+        let held = Held {
+            values: &self.held,
+            attitudes: self.arcs.attitudes(),
+        };
+        let look = Look {
+            predicted: &held,
+            raised: &held,
+            ends: &self.held,
+            with_columns: true,
+        };
+        self.start.columns.request(parts, look, &mut self.memory);
+    }
+
+    /// Solves the linearised conditions for the change of the unknowns and takes it.
+    fn solve(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
+        let (pattern, jacobian, change) = self.stack.equation();
+        let solved = self.solver.solve(pattern, jacobian, change);
+        solved.map_err(|SingularColumn(unknown)| {
+            let singular = SingularRow {
+                row: self.end.system.unknowns().variable(unknown),
+                level: self.variant.level(),
+            };
+            singular.in_step(parts, step)
+        })?;
+        self.change.copy_from_slice(change);
+        self.arcs.change(&self.change);
+        self.sample.take(&self.arcs);
+        self.foresee_accelerations(step.length);
+        check_finite(self.sample.ends(), parts, step)
+    }
+
+    /// The second derivatives of exchanged motion at the end of the step: linearised outputs.
+    fn foresee_accelerations(&mut self, step: f64) {
+        if self.variant.level() < Level::Acceleration {
+            return;
+        }
+        let system = &self.end.system;
+        let accelerations = &mut self.accelerations;
+        system.shift(Level::Acceleration, &self.change, accelerations);
+        let residual = system.residual(Level::Acceleration);
+        for (acceleration, residual) in accelerations.iter_mut().zip(residual) {
+            *acceleration = -(residual + *acceleration) / (step * step);
+        }
+    }
+}
+
+impl Corrector for Hermite {
+    fn multipliers(&self) -> &[f64] {
+        &self.multipliers
+    }
+
+    fn request_prediction(
+        &mut self,
+        parts: &mut Parts,
+        step: MacroStep,
+        with_columns: bool,
+    ) -> Result<(), RunError> {
+        self.arcs.predict(step.length);
+        self.sample.take(&self.arcs);
+        check_finite(self.sample.ends(), parts, step)?;
+        for (held, start) in self.held.iter_mut().zip(self.arcs.starts()) {
+            *held = start;
+        }
+        parts.prepare_prediction(step.start, step.length);
+        let look = Look {
+            predicted: &self.arcs,
+            raised: &self.arcs,
+            ends: self.sample.ends(),
+            with_columns,
+        };
+        self.end.columns.request(parts, look, &mut self.memory);
+        if self.variant.starts_anew() && with_columns {
+            self.request_evaluation(parts, step.start);
+        } else {
+            parts.forgo_evaluation();
+        }
+        Ok(())
+    }
+
+    fn correct(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
+        let predicted = |subsystem: usize| parts.subsystems[subsystem].predicted();
+        let point = self.sample.point(step.length, self.arcs.attitudes());
+        self.end.assemble(parts, predicted, point);
+        if self.variant.starts_anew() {
+            let now = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+            let point = Point::ends(&self.held, self.arcs.attitudes());
+            self.start.assemble(parts, now, point);
+        }
+        let (end, start) = (&self.end.system, &self.start.system);
+        self.stack.assemble_jacobian(end, start, step.length);
+        self.stack.assemble_end(end, step.length);
+        self.stack.assemble_start(start);
+        self.promise.take(end);
+        self.solve(parts, step)
+    }
+
+    fn request_advance(&mut self, parts: &mut Parts, _step: MacroStep) {
+        let mut over = Over {
+            curves: &self.arcs,
+            memory: &mut self.memory,
+        };
+        for input in &parts.layout.inputs {
+            let subsystem = &mut parts.subsystems[input.subsystem];
+            input.signal(&mut over, subsystem.advance_signal(input.place));
+        }
+    }
+
+    fn move_on(&mut self, _step: MacroStep) {
+        self.before.copy_from(&self.arcs);
+        self.arcs.move_on(self.sample.ends(), &self.accelerations);
+        self.read_multipliers();
+    }
+
+    fn move_back(&mut self) {
+        std::mem::swap(&mut self.arcs, &mut self.before);
+        self.sample.take(&self.arcs);
+        self.read_multipliers();
+    }
+
+    fn judge(&mut self, parts: &Parts) -> Verdict {
+        self.promise.judge(&self.end.system, parts, &self.change)
+    }
+}
+
+impl Hermite {
+    fn read_multipliers(&mut self) {
+        for (multiplier, start) in self.multipliers.iter_mut().zip(self.arcs.starts()) {
+            *multiplier = start;
+        }
+    }
+}
+
+/// Gives exchanged motion the rates that the outputs at the first macro point tell.
+fn start_motion(arcs: &mut Arcs, parts: &Parts) {
+    for exchanged in &parts.layout.exchanged {
+        let Some(rates) = &exchanged.rates else {
+            continue;
+        };
+        let outputs = parts.subsystems[exchanged.subsystem].coupling_values();
+        let speed = rates.speed(outputs, &Default::default());
+        let acceleration = rates.acceleration(outputs);
+        for component in 0..exchanged.size() {
+            let variable = exchanged.first + component;
+            arcs.set_rates(variable, speed[component], acceleration[component]);
+        }
+    }
+}

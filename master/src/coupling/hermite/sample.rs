@@ -1,0 +1,53 @@
+//! The coupling variables at the shares of a step at which loads are raised.
+
+use nalgebra::UnitQuaternion;
+
+use super::arcs::Arcs;
+use crate::coupling::system::Point;
+use crate::coupling::unknowns::Unknowns;
+
+/// Values of the curves, in memory that is kept from step to step.
+pub struct Sample {
+    shares: Vec<f64>,
+    inner: Vec<Vec<f64>>,
+    ends: Vec<f64>,
+    rates: Vec<f64>,
+}
+
+impl Sample {
+    /// For `size` variables with these unknowns; the last share is the end of the step.
+    pub fn new(unknowns: &Unknowns, size: usize) -> Self {
+        let shares = unknowns.shares().to_vec();
+        Self {
+            inner: vec![vec![0.0; size]; shares.len() - 1],
+            shares,
+            ends: vec![0.0; size],
+            rates: vec![0.0; size],
+        }
+    }
+
+    /// Takes the values of `arcs`.
+    pub fn take(&mut self, arcs: &Arcs) {
+        for (values, &share) in self.inner.iter_mut().zip(&self.shares) {
+            arcs.sample(share, values);
+        }
+        arcs.sample(1.0, &mut self.ends);
+        arcs.sample_rates(&mut self.rates);
+    }
+
+    /// Values at the end of the step.
+    pub fn ends(&self) -> &[f64] {
+        &self.ends
+    }
+
+    /// The point to linearise about, for a step of length `step`.
+    pub fn point<'a>(&'a self, step: f64, attitudes: &'a [UnitQuaternion<f64>]) -> Point<'a> {
+        Point {
+            w: &self.ends,
+            inner: &self.inner,
+            rates: &self.rates,
+            step,
+            attitudes,
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! What the variants of Hermite coupling demand.
+
+use crate::joint::Level;
+pub use crate::scene::Variant;
+
+impl Variant {
+    /// Whether `g'' = 0` at `T_N` determines the start value; otherwise it is the end value of the step before.
+    pub fn starts_anew(self) -> bool {
+        matches!(self, Self::Apv | Self::Av)
+    }
+
+    /// The conditions at `T_{N+1}`.
+    pub fn ends(self) -> &'static [Level] {
+        match self {
+            Self::Apv | Self::C0pv => &[Level::Position, Level::Velocity],
+            Self::Av | Self::C0v => &[Level::Velocity],
+            Self::C0pva => &[Level::Position, Level::Velocity, Level::Acceleration],
+        }
+    }
+
+    /// Highest level that is read of the workers.
+    pub fn level(self) -> Level {
+        match self {
+            Self::Apv | Self::Av | Self::C0pva => Level::Acceleration,
+            Self::C0pv | Self::C0v => Level::Velocity,
+        }
+    }
+
+    /// Degree of the multipliers' polynomials.
+    pub fn degree(self) -> usize {
+        self.ends().len()
+    }
+
+    /// Degree of the polynomials of exchanged motion: through position and velocity at both ends, and the acceleration at
+    /// the start if it is read.
+    pub fn motion_degree(self) -> usize {
+        match self.level() {
+            Level::Acceleration => 4,
+            Level::Position | Level::Velocity => 3,
+        }
+    }
+
+    /// The nodes of a multiplier whose values are unknown, as shares of the step.
+    pub fn shares(self) -> Vec<f64> {
+        let degree = self.degree();
+        let first = if self.starts_anew() { 0 } else { 1 };
+        let share = |node: usize| node as f64 / degree as f64;
+        (first..=degree).map(share).collect()
+    }
+}
