@@ -161,7 +161,7 @@ impl System {
                     self.residuals[level as usize][variable] = point.w[variable] - shown;
                 }
             }
-            if let Some(rates) = &exchanged.rates {
+            if let Some(rates) = exchanged.rates_among(&self.unknowns) {
                 let own = outputs(exchanged.subsystem);
                 let phi = exchanged.vector(point.w);
                 let speed = rates.speed(own, &phi);
@@ -252,7 +252,7 @@ impl System {
         for exchanged in &layout.exchanged {
             let own = outputs(exchanged.subsystem);
             for _ in 0..exchanged.size() {
-                for unit in exchanged.units() {
+                for unit in exchanged.units(&self.unknowns) {
                     self.add(slot, *unit);
                     slot += 1;
                 }
@@ -263,7 +263,7 @@ impl System {
                     if derivatives.is_empty() {
                         continue;
                     }
-                    let changes = exchanged.changes(own, point, derivatives);
+                    let changes = exchanged.changes(&self.unknowns, own, point, derivatives);
                     let raised = Raised {
                         input: &layout.inputs[input],
                         number: input,
