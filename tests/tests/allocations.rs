@@ -187,12 +187,14 @@ fn joint_loads_allocate_nothing() {
                 t: 0.0,
                 step: 1e-2,
                 signals: signals.clone(),
+                ..v1::Advance::default()
             }),
             predict: Some(v1::Predict {
                 t: 1e-2,
                 step: 1e-2,
                 perturbed: signals[..2].to_vec(),
                 signals,
+                ..v1::Predict::default()
             }),
             ..v1::ExchangeRequest::default()
         };

@@ -51,6 +51,24 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
         }
     }
 
+    /// A response is small against the error tolerance of the motion, so it takes the motion's steps and not its own.
+    fn respond(
+        &mut self,
+        driven: &Driven<E>,
+        direction: &Driven<E>,
+        interval: Interval,
+        state: &E::State,
+        response: &mut E::State,
+    ) -> Result<(), StepFailure> {
+        if !self.radau.has_recorded(interval.length, state.as_ref()) {
+            let mut end = *state;
+            self.step(driven, interval, &mut end)?;
+        }
+        self.radau
+            .replay(direction, response.as_mut())
+            .map_err(|error| at(interval, error))
+    }
+
     fn memory(&self) -> f64 {
         self.radau.proposed_step()
     }

@@ -26,6 +26,11 @@ pub trait EquationOfMotion: Send {
     /// Names of the states, for messages.
     const STATE_NAMES: &'static [&'static str];
 
+    /// Whether `f` and the outputs are linear in states and inputs together, without a constant part: the motion is then the
+    /// sum of the motions that its causes have alone, and the derivative in a direction is the motion from zero under that
+    /// direction.
+    const IS_LINEAR: bool = false;
+
     /// `f(y, u)`.
     fn rate(&self, state: &Self::State, inputs: &Self::Inputs) -> Self::State;
 

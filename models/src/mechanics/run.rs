@@ -2,7 +2,7 @@
 
 use linchpin_worker::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
 
-use super::equation::{Driven, EquationOfMotion};
+use super::equation::{Driven, EquationOfMotion, Vector};
 use super::joint_loads::JointLoads;
 
 /// How an equation of motion is advanced in time.
@@ -23,6 +23,20 @@ pub trait Solver<E: EquationOfMotion>: Send {
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
         self.step(driven, interval, state)
+    }
+
+    /// Advances `response`, of a linear equation under `direction`, over the internal steps that `driven` needs from `state`:
+    /// the derivative of what [`Solver::step`] computes. For solvers whose internal steps depend on the interval only it is
+    /// a step.
+    fn respond(
+        &mut self,
+        _driven: &Driven<E>,
+        direction: &Driven<E>,
+        interval: Interval,
+        _state: &E::State,
+        response: &mut E::State,
+    ) -> Result<(), StepFailure> {
+        self.step(direction, interval, response)
     }
 
     /// What the next step depends on besides the state, as one number; 0 if there is nothing.
@@ -90,6 +104,22 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
     }
 }
 
+fn read<E: EquationOfMotion>(
+    equation: &E,
+    state: &E::State,
+    inputs: &E::Inputs,
+    wanted: &[usize],
+    values: &mut [f64],
+) -> Result<(), StepFailure> {
+    for (value, &output) in values.iter_mut().zip(wanted) {
+        let computed = equation.output(state, inputs, output);
+        *value = computed.ok_or_else(|| StepFailure::Fatal {
+            message: format!("the model has no output number {output}"),
+        })?;
+    }
+    Ok(())
+}
+
 impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         self.advance(interval, inputs, S::step)
@@ -107,13 +137,40 @@ impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
         values: &mut [f64],
     ) -> Result<(), StepFailure> {
         let u = self.joint_loads.inputs(&self.equation, &self.state, inputs);
-        for (value, &output) in values.iter_mut().zip(wanted) {
-            let computed = self.equation.output(&self.state, &u, output);
-            *value = computed.ok_or_else(|| StepFailure::Fatal {
-                message: format!("the model has no output number {output}"),
-            })?;
+        read(&self.equation, &self.state, &u, wanted, values)
+    }
+
+    fn derivative(
+        &mut self,
+        interval: Interval,
+        inputs: &Inputs,
+        direction: &Inputs,
+        wanted: &[usize],
+        values: &mut [f64],
+    ) -> Result<(), StepFailure> {
+        if !E::IS_LINEAR || !self.joint_loads.is_empty() {
+            return Err(StepFailure::NotOffered {
+                what: "directional derivatives",
+            });
         }
-        Ok(())
+        let driven = |inputs| Driven {
+            equation: &self.equation,
+            inputs,
+            joint_loads: &self.joint_loads,
+        };
+        let mut response = E::State::ZERO;
+        if interval.length > 0.0 {
+            self.solver.respond(
+                &driven(inputs),
+                &driven(direction),
+                interval,
+                &self.state,
+                &mut response,
+            )?;
+        }
+        let mut u = E::Inputs::ZERO;
+        direction.values_at(interval.length, u.as_mut());
+        read(&self.equation, &response, &u, wanted, values)
     }
 
     fn snapshot(&self, into: &mut Snapshot) {

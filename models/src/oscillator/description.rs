@@ -36,6 +36,7 @@ pub fn model() -> v1::Model {
         states: vec![state("x", "x0"), state("v", "v0")],
         capabilities: Some(v1::Capabilities {
             joint_loads: false,
+            directional_derivatives: true,
             ..capabilities()
         }),
     }

@@ -54,6 +54,7 @@ impl EquationOfMotion for Equation {
     type Inputs = [f64; 3];
 
     const STATE_NAMES: &'static [&'static str] = &["x", "v"];
+    const IS_LINEAR: bool = true;
 
     fn rate(&self, &[x, v]: &State, &[f, partner_x, partner_v]: &[f64; 3]) -> State {
         let u = self.force(f, partner_x, partner_v);

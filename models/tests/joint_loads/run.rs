@@ -111,6 +111,7 @@ impl Run {
             t: self.t,
             signals: polynomials(&[0.0], self.t, signals),
             outputs: outputs.to_vec(),
+            ..v1::EvaluateRequest::default()
         };
         answer(self.host.evaluate(&request)).outputs.unwrap().values
     }

@@ -54,13 +54,16 @@ prop_compose! {
 }
 
 prop_compose! {
-    fn look()(t in numbers(), step in numbers(), signals in signals(), perturbed in signals()) -> v1::Predict {
-        v1::Predict { t, step, signals, perturbed }
+    fn look()(
+        t in numbers(), step in numbers(), signals in signals(), perturbed in signals(), directions in signals(),
+    ) -> v1::Predict {
+        v1::Predict { t, step, signals, perturbed, directions }
     }
 }
 
 fn call() -> impl Strategy<Value = Call> {
     let name = prop_oneof![Just("level".to_owned()), Just("x".to_owned()), ".{0,3}"];
+    let samples = proptest::collection::vec(numbers(), 0..3);
     let optional = |present: bool, look: v1::Predict| present.then_some(look);
     prop_oneof![
         step().prop_map(Call::Step),
@@ -71,6 +74,7 @@ fn call() -> impl Strategy<Value = Call> {
             step: look.step,
             signals: look.signals,
             perturbed: look.perturbed,
+            directions: look.directions,
         })),
         (look(), proptest::collection::vec(name, 0..3)).prop_map(|(look, outputs)| {
             Call::Evaluate(v1::EvaluateRequest {
@@ -78,10 +82,11 @@ fn call() -> impl Strategy<Value = Call> {
                 t: look.t,
                 signals: look.signals,
                 outputs,
+                directions: look.directions,
             })
         }),
-        (step(), look(), any::<bool>(), any::<bool>()).prop_map(
-            move |(step, look, advances, predicts)| {
+        (step(), [look(), look()], any::<[bool; 4]>(), samples).prop_map(
+            move |(step, [ahead, now], [go_back, advances, predicts, evaluates], samples)| {
                 Call::Exchange(v1::ExchangeRequest {
                     instance: 5,
                     sequence: step.sequence,
@@ -89,8 +94,11 @@ fn call() -> impl Strategy<Value = Call> {
                         t: step.t,
                         step: step.step,
                         signals: step.signals,
+                        samples,
                     }),
-                    predict: optional(predicts, look),
+                    predict: optional(predicts, ahead),
+                    go_back,
+                    evaluate: optional(evaluates, v1::Predict { step: 0.0, ..now }),
                 })
             }
         ),
@@ -262,5 +270,6 @@ fn look_at(signals: Vec<v1::Signal>) -> Call {
         t: 0.0,
         signals,
         outputs: vec!["end_ax".into(), "end_x".into()],
+        ..v1::EvaluateRequest::default()
     })
 }

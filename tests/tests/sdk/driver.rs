@@ -67,6 +67,7 @@ impl Driver {
             step,
             signals,
             perturbed,
+            ..v1::PerturbedStepRequest::default()
         }
     }
 
@@ -80,7 +81,18 @@ impl Driver {
             sequence: self.next(),
             advance,
             predict,
+            ..v1::ExchangeRequest::default()
         }
+    }
+
+    /// One turn of the exchange; instance and sequence number are filled in.
+    pub fn turn(&mut self, request: v1::ExchangeRequest) -> Result<v1::ExchangeReply, Failure> {
+        let request = v1::ExchangeRequest {
+            instance: self.instance,
+            sequence: self.next(),
+            ..request
+        };
+        exchange(&*self.calls, &request)
     }
 
     pub fn exchange(
@@ -130,6 +142,7 @@ impl Driver {
             t: 0.0,
             signals,
             outputs: outputs.iter().map(|&name| name.into()).collect(),
+            ..v1::EvaluateRequest::default()
         };
         failure(self.calls.evaluate(&request)).map(|reply| values(reply.outputs))
     }

@@ -35,6 +35,7 @@ fn turns() -> Vec<(Option<v1::Advance>, Option<v1::Predict>)> {
             t,
             step,
             signals: force(end),
+            ..v1::Advance::default()
         })
     };
     let predict = |i: f64, step: f64, end: f64| {
@@ -44,6 +45,7 @@ fn turns() -> Vec<(Option<v1::Advance>, Option<v1::Predict>)> {
             step,
             signals: force(end),
             perturbed,
+            ..v1::Predict::default()
         })
     };
     vec![
@@ -81,12 +83,14 @@ fn a_failure_while_looking_ahead_leaves_the_committed_state(serve: Serve) {
         t,
         step: 0.5,
         signals: inflow(1.0),
+        ..v1::Advance::default()
     };
     let predict = |signals, perturbed| v1::Predict {
         t: 0.5,
         step: 0.5,
         signals,
         perturbed,
+        ..v1::Predict::default()
     };
     driver.exchange(Some(advance(0.0)), None).unwrap();
     for (signals, perturbed) in [(inflow(100.0), vec![]), (inflow(1.0), inflow(100.0))] {
@@ -109,6 +113,7 @@ fn a_prediction_of_zero_length_evaluates(serve: Serve) {
         step: 0.0,
         signals: signals.clone(),
         perturbed: vec![through(1, &[(0.5, 9.0), (0.0, 0.75)])],
+        ..v1::Predict::default()
     };
     let reply = driver.exchange(None, Some(predict)).unwrap();
     let evaluated = driver.evaluate(signals, &["level", "rate"]).unwrap();
@@ -156,7 +161,12 @@ fn a_wrong_part_is_named(serve: Serve) {
         (0.0, f64::INFINITY),
     ] {
         let signals = vec![constant(0, 1.0)];
-        let advance = v1::Advance { t, step, signals };
+        let advance = v1::Advance {
+            t,
+            step,
+            signals,
+            ..v1::Advance::default()
+        };
         assert_misuse(
             driver.exchange(Some(advance), None),
             "step",
@@ -169,6 +179,7 @@ fn a_wrong_part_is_named(serve: Serve) {
             step,
             signals: vec![constant(0, 1.0)],
             perturbed: vec![],
+            ..v1::Predict::default()
         };
         assert_misuse(
             driver.exchange(None, Some(predict)),

@@ -181,12 +181,14 @@ fn an_exchange_is_the_step_and_the_evaluation_that_it_stands_for(serve: Serve) {
         t: 0.0,
         step: 0.3,
         signals: perturbed(),
+        ..v1::Advance::default()
     };
     let predict = v1::Predict {
         t: 0.3,
         step: 0.0,
         signals: signals(POINTS),
         perturbed: perturbed(),
+        ..v1::Predict::default()
     };
     let reply = fused.exchange(Some(advance), Some(predict)).unwrap();
     let stepped = unary.step(0.0, 0.3, perturbed()).unwrap();

@@ -4,20 +4,25 @@
 
 mod anything;
 mod descriptions;
+mod directions;
 mod driver;
+mod evaluations;
 mod exchange;
+mod going_back;
 mod initialize;
 mod instances;
 mod joint_load_mistakes;
 mod joint_loads;
 mod peer;
 mod repeated_steps;
+mod samples;
 mod scripted;
 mod sequence;
 mod serving;
 mod signals;
 mod snapshots;
 mod stand;
+mod subjects;
 mod tank;
 
 /// Makes two tests of every function: with the contract in this process, and behind a server on a Unix socket.

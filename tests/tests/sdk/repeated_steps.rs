@@ -39,12 +39,14 @@ fn in_an_exchange_they_repeat_the_prediction(serve: Serve) {
         t: 0.0,
         step: 0.5,
         signals: inflow(1.0),
+        ..v1::Advance::default()
     };
     let predict = v1::Predict {
         t: 0.5,
         step: 0.5,
         signals: inflow(1.0),
         perturbed: inflow(1.1),
+        ..v1::Predict::default()
     };
     for advance in [Some(advance), None] {
         let reply = driver.exchange(advance, Some(predict.clone())).unwrap();

@@ -82,7 +82,15 @@ fn a_put_goes_to_the_advanced_outputs_first(serve: Serve) {
         t, step, signals, ..
     } = look().unwrap();
     let reply = driver
-        .exchange(Some(v1::Advance { t, step, signals }), look())
+        .exchange(
+            Some(v1::Advance {
+                t,
+                step,
+                signals,
+                ..v1::Advance::default()
+            }),
+            look(),
+        )
         .unwrap();
     assert!(reply.advanced.unwrap().values[0].is_nan());
     assert_eq!(reply.predicted.unwrap().values[0], START + 1.0);

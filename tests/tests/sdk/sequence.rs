@@ -63,12 +63,14 @@ fn a_repeated_call_gets_its_first_answer_and_changes_nothing(serve: Serve) {
             t: STEP,
             step: STEP,
             signals: ramp(),
+            ..v1::Advance::default()
         }),
         Some(v1::Predict {
             t: 2.0 * STEP,
             step: STEP,
             signals: ramp(),
             perturbed: ramp(),
+            ..v1::Predict::default()
         }),
     );
     let first = exchange(&*calls, &request).unwrap();
@@ -162,6 +164,7 @@ fn a_call_that_failed_fails_again_and_its_number_is_used_up(serve: Serve) {
         t: 0.0,
         step: STEP,
         signals: flood,
+        ..v1::Advance::default()
     };
     let turn = driver.exchange_request(Some(advance), None);
     let first = exchange(&*calls, &turn).unwrap_err();

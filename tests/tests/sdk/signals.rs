@@ -68,6 +68,7 @@ fn an_input_without_a_default_needs_a_signal(serve: Serve) {
         step: 0.5,
         signals: vec![],
         perturbed: vec![constant(0, 1.0)],
+        ..v1::Predict::default()
     };
     assert_misuse(driver.exchange(None, Some(predict)), "signals", &words);
 }
@@ -141,6 +142,7 @@ fn wrong_signals_are_refused_and_change_nothing(serve: Serve) {
             step: 0.5,
             signals,
             perturbed: vec![],
+            ..v1::Predict::default()
         };
         assert_misuse(driver.exchange(None, Some(predict)), "signals", words);
     }
@@ -184,6 +186,7 @@ fn wrong_steps_and_evaluations_are_refused(serve: Serve) {
         t: f64::NAN,
         signals: inflow(),
         outputs: vec![],
+        ..v1::EvaluateRequest::default()
     };
     let answer = crate::driver::failure(driver.calls.evaluate(&request));
     assert_misuse(answer, "t", &["NaN"]);

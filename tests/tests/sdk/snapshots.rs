@@ -82,12 +82,14 @@ fn what_was_looked_ahead_is_not_kept(serve: Serve) {
         t: 0.0,
         step: 0.5,
         signals: inflow(1.0),
+        ..v1::Advance::default()
     };
     let predict = v1::Predict {
         t: 0.5,
         step: 0.25,
         signals: inflow(2.0),
         perturbed: inflow(3.0),
+        ..v1::Predict::default()
     };
     driver
         .exchange(Some(advance), Some(predict.clone()))
@@ -111,6 +113,7 @@ fn an_exchange_goes_on_from_a_restored_state(serve: Serve) {
         t: 0.0,
         step: 0.5,
         signals: vec![constant(0, 1.0), constant(1, 0.0)],
+        ..v1::Advance::default()
     };
     let level = |reply: v1::ExchangeReply| reply.advanced.unwrap().values[0];
     assert_eq!(
