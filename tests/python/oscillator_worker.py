@@ -17,7 +17,7 @@ from grpc import StatusCode
 from linchpin.v1 import worker_pb2 as pb
 from linchpin.v1 import worker_pb2_grpc
 
-PROTOCOL = pb.ProtocolVersion(major=1, minor=0)
+PROTOCOL = pb.ProtocolVersion(major=1, minor=1)
 MODEL = pb.Model(
     name="oscillator",
     description="m a = -c x - d v + f",
@@ -27,7 +27,7 @@ MODEL = pb.Model(
     + [pb.Parameter(name=name, unit=unit, default=0.0) for name, unit in (("x0", "m"), ("v0", "m/s"))],
     markers=[pb.Marker(name="mass", kind="MARKER_KIND_SCALAR", position=["x"], velocity=["v"], acceleration=["a"], load=["f"])],
     states=[pb.StateVariable(output="x", initial="x0"), pb.StateVariable(output="v", initial="v0")],
-    capabilities=pb.Capabilities(repeats_step_sequence=True, max_input_degree=7),
+    capabilities=pb.Capabilities(repeats_step_sequence=True, max_input_degree=7, directional_derivatives=True),
 )
 
 
@@ -72,10 +72,15 @@ class Oscillator:
         require(driven and points, f"signals = {list(signals)}: allowed is {allowed}")
         return force
 
-    def end(self, step, signals):
-        """Position, velocity and force `step` seconds later; the state stays. Power series in s = t/h over parts of
-        length h that are short beside 1/omega and m/d: x = sum of xs[n] s^n, h v = sum of ws[n] s^n."""
-        force, (x, v) = self.force(signals), self.state
+    def derivatives(self, names, step, directions):
+        """The equation is linear: the derivative in a direction is the motion from zero under that direction."""
+        ends = [self.end(step, [one], (0.0, 0.0)) for one in directions]
+        return [self.outputs(names, *end) for end in ends]
+
+    def end(self, step, signals, start=None):
+        """Position, velocity and force `step` seconds after `start`, or after the state, which stays. Power series in s = t/h
+        over parts of length h that are short beside 1/omega and m/d: x = sum of xs[n] s^n, h v = sum of ws[n] s^n."""
+        force, (x, v) = self.force(signals), start or self.state
         parts = step * max(math.sqrt(self.c / self.m), self.d / self.m)
         require(step > 0.0 and parts < 1e5, f"step = {step} s: above 0 and below 1e5 times 1/omega and m/d is allowed")
         parts = max(1, math.ceil(parts))
@@ -168,7 +173,9 @@ class Worker(worker_pb2_grpc.WorkerServicer):
     def Evaluate(self, request):
         one = self.instance(request)
         f = powers(one.force(request.signals), 0.0, 0.0)[0]
-        return pb.EvaluateReply(outputs=one.outputs(request.outputs, *one.state, f))
+        through = [powers(one.force([signal]), 0.0, 0.0)[0] for signal in request.directions]
+        derivatives = [one.outputs(request.outputs, 0.0, 0.0, direct) for direct in through]
+        return pb.EvaluateReply(outputs=one.outputs(request.outputs, *one.state, f), derivatives=derivatives)
 
     @call
     def Terminate(self, request):
@@ -186,7 +193,9 @@ class Worker(worker_pb2_grpc.WorkerServicer):
     def PerturbedStep(one, request):
         # A perturbed signal replaces that of its input, and f is the only input.
         outputs = [one.outputs(one.coupling, *one.end(request.step, [signal])) for signal in request.perturbed]
-        return pb.PerturbedStepReply(outputs=outputs, work=pb.Work(integrations=len(outputs)))
+        derivatives = one.derivatives(one.coupling, request.step, request.directions)
+        work = pb.Work(integrations=len(outputs), derivatives=len(derivatives))
+        return pb.PerturbedStepReply(outputs=outputs, work=work, derivatives=derivatives)
 
     @sequenced
     def Snapshot(one, request):

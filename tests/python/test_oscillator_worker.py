@@ -14,7 +14,7 @@ from linchpin.v1 import worker_pb2_grpc
 from oscillator_worker import Oscillator
 
 PROGRAM = pathlib.Path(__file__).with_name("oscillator_worker.py")
-PROTOCOL = pb.ProtocolVersion(major=1, minor=0)
+PROTOCOL = pb.ProtocolVersion(major=1, minor=1)
 PARAMETERS = {"m": 1.3, "c": 1700.0, "d": 10.3, "x0": 0.37, "v0": -2.9}
 SETUP = {"model": "oscillator", "inputs": ["f"], "coupling_outputs": ["x", "v"], "recorded_outputs": ["a"]}
 STEP = 1.7e-3
@@ -104,6 +104,7 @@ class Contract(unittest.TestCase):
             ("mass", pb.MARKER_KIND_SCALAR, ["x"], ["v"], ["a"], ["f"]),
         )
         self.assertFalse(model.capabilities.exchange)
+        self.assertTrue(model.capabilities.directional_derivatives)
         self.assertEqual([(one.output, one.initial) for one in model.states], [("x", "x0"), ("v", "v0")])
         self.assertEqual(model.inputs[0].default, 0.0)
 
@@ -119,7 +120,7 @@ class Contract(unittest.TestCase):
             self.refused(
                 StatusCode.FAILED_PRECONDITION,
                 lambda: self.initialize(PARAMETERS, instance=4, protocol=theirs),
-                "1.0",
+                "1.1",
                 shown,
             )
 
@@ -214,6 +215,33 @@ class Contract(unittest.TestCase):
         self.assertEqual(reply.work.integrations, 2)
         self.assertNotEqual(expected[0], expected[1])
         self.assertEqual(self.evaluate()[2], 0.37)
+
+    def test_derivatives_are_the_quotients_of_differences(self):
+        # Linear: any increment will do, and a large one leaves no rounding.
+        increment, direction = 1e6, ([STEP, 0.0], [0.7, -1.1])
+        raised = (RAMP[0], [p + increment * q for p, q in zip(RAMP[1], direction[1])])
+        request = self.next(
+            pb.PerturbedStepRequest,
+            t=0.0,
+            step=STEP,
+            signals=[signal(*RAMP)],
+            perturbed=[signal(*RAMP), signal(*raised)],
+            directions=[signal(*direction)],
+        )
+        reply = self.worker.PerturbedStep(request)
+        before, after = (one.values for one in reply.outputs)
+        (derivative,) = reply.derivatives
+        for found, p, q in zip(derivative.values, after, before, strict=True):
+            self.assertAlmostEqual(found / ((p - q) / increment), 1.0, delta=1e-12)
+        self.assertEqual((reply.work.integrations, reply.work.derivatives), (2, 1))
+
+    def test_the_derivative_of_an_evaluation_is_the_feed_through(self):
+        request = pb.EvaluateRequest(
+            instance=3, signals=[signal(*RAMP)], outputs=["a", "v", "x"], directions=[signal([0.0, STEP], [0.7, 9.0])]
+        )
+        reply = self.worker.Evaluate(request)
+        self.assertEqual(list(reply.outputs.values), self.evaluate(signal(*RAMP)))
+        self.assertEqual([list(one.values) for one in reply.derivatives], [[0.7 / 1.3, 0.0, 0.0]])
 
     def test_a_restored_state_replays_bit_by_bit(self):
         self.step(signal(*RAMP))
