@@ -4,7 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use linchpin_tests::process::{Running, Workshop};
+use linchpin_proto::v1::ProtocolVersion;
+use linchpin_tests::process::{Peer, Running, Workshop};
 use rustix::process::Signal;
 
 /// One case for every method, index and degree that is stable, with a macro step that does not divide the time.
@@ -233,6 +234,17 @@ fn unary_calls_in_one_process() {
 }
 
 /// The same workers serve all cases, one after the other, by exchange and by unary calls.
+/// An exchange stream of the first protocol would pass over parts of a request.
+#[test]
+fn a_stream_that_lacks_parts_gives_way_to_unary_calls() {
+    let workshop = Workshop::new();
+    let first = ProtocolVersion { major: 1, minor: 0 };
+    let peer = Peer::scripted(&workshop, |peer| peer.speaking(first));
+    let setting = format!("subsystem.*.address={}", peer.address());
+    let tables = run(&workshop, "older", "unary calls", &["--set", &setting]);
+    assert_equal(&tables, &in_process(&workshop));
+}
+
 #[test]
 fn workers_started_by_hand_on_tcp() {
     let workshop = Workshop::new();

@@ -149,7 +149,7 @@ fn joined(model: &str, signals: [&[u32]; 3], axis: [f64; 3]) -> v1::InitializeRe
     }
 }
 
-/// Steps and looks ahead, also with a perturbed multiplier, as often as told.
+/// Steps and looks ahead, also with a perturbed multiplier, as often as told; every second step is taken again.
 fn exchange(host: &Host, request: &mut v1::ExchangeRequest, turns: usize) {
     let mut reply = v1::ExchangeReply::default();
     let mut before = 0;
@@ -158,6 +158,7 @@ fn exchange(host: &Host, request: &mut v1::ExchangeRequest, turns: usize) {
             before = ALLOCATIONS.get();
         }
         request.sequence += 1;
+        request.go_back = turn % 2 == 1;
         host.exchange(request, &mut reply).unwrap();
     }
     assert_eq!(ALLOCATIONS.get() - before, 0, "{request:?}");
@@ -181,23 +182,73 @@ fn joint_loads_allocate_nothing() {
                 values: vec![0.1 * f64::from(input), 0.3],
             })
             .collect();
+        let look = v1::Predict {
+            t: 1e-2,
+            signals: signals.clone(),
+            perturbed: signals[..2].to_vec(),
+            ..v1::Predict::default()
+        };
         let mut request = v1::ExchangeRequest {
             instance: 1,
             advance: Some(v1::Advance {
                 t: 0.0,
                 step: 1e-2,
                 signals: signals.clone(),
-                ..v1::Advance::default()
+                samples: vec![3e-3, 8e-3],
             }),
             predict: Some(v1::Predict {
-                t: 1e-2,
                 step: 1e-2,
-                perturbed: signals[..2].to_vec(),
-                signals,
-                ..v1::Predict::default()
+                ..look.clone()
             }),
+            evaluate: Some(look),
             ..v1::ExchangeRequest::default()
         };
         exchange(&host, &mut request, 100);
     }
+}
+
+#[test]
+fn directional_derivatives_allocate_nothing() {
+    let number = |value| v1::Value {
+        kind: Some(v1::value::Kind::Number(value)),
+    };
+    let host = Host::new(linchpin_models::models());
+    let instance = v1::InitializeRequest {
+        instance: 1,
+        protocol: Some(PROTOCOL),
+        model: "oscillator".into(),
+        parameters: [("m".into(), number(1.3)), ("c".into(), number(170.0))].into(),
+        inputs: vec!["f".into(), "partner_x".into()],
+        coupling_outputs: vec!["x".into(), "a".into()],
+        ..v1::InitializeRequest::default()
+    };
+    host.initialize(&instance).unwrap();
+    let signals: Vec<v1::Signal> = { 0..2 }
+        .map(|input| v1::Signal {
+            input,
+            nodes: vec![1e-2, 0.0],
+            values: vec![0.1, 0.3],
+        })
+        .collect();
+    let look = v1::Predict {
+        t: 1e-2,
+        directions: signals.clone(),
+        signals: signals.clone(),
+        ..v1::Predict::default()
+    };
+    let mut request = v1::ExchangeRequest {
+        instance: 1,
+        advance: Some(v1::Advance {
+            step: 1e-2,
+            signals,
+            ..v1::Advance::default()
+        }),
+        predict: Some(v1::Predict {
+            step: 1e-2,
+            ..look.clone()
+        }),
+        evaluate: Some(look),
+        ..v1::ExchangeRequest::default()
+    };
+    exchange(&host, &mut request, 100);
 }

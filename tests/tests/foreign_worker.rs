@@ -2,9 +2,16 @@
 
 #![allow(clippy::unwrap_used)]
 
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Child, Command, Stdio};
+use std::time::Duration;
 
+use linchpin_master::Interrupt;
+use linchpin_master::connection::{Grpc, TimeLimits, UnaryTurns, new_runtime};
+use linchpin_proto::contract::Contract;
+use linchpin_proto::v1::{self, value::Kind};
+use linchpin_proto::version::PROTOCOL;
 use linchpin_tests::process::Workshop;
 
 const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
@@ -155,4 +162,123 @@ fn it_agrees_with_the_built_in_worker_to_rounding() {
         assert_eq!(subsystems[0]["route"], "exchange stream");
         assert_eq!(subsystems[1]["route"], "unary calls");
     }
+}
+
+/// The worker's program, which ends with this.
+struct Program(Child);
+
+impl Drop for Program {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+/// The program, and its calls as exchanges.
+fn serve(workshop: &Workshop) -> (Program, UnaryTurns<Grpc>) {
+    let (python, stubs) = python();
+    let mut command = Command::new(python);
+    command
+        .arg(Path::new(REPOSITORY).join("tests/python/oscillator_worker.py"))
+        .arg("--listen")
+        .arg(format!(
+            "unix:{}",
+            workshop.path().join("foreign").display()
+        ))
+        .env("PYTHONPATH", stubs)
+        .stdout(Stdio::piped());
+    let mut program = Program(command.spawn().unwrap());
+    let mut line = String::new();
+    let output = program.0.stdout.take().unwrap();
+    BufReader::new(output).read_line(&mut line).unwrap();
+    let address = line.trim().strip_prefix("listening on ").unwrap();
+    let limits = TimeLimits {
+        start: Duration::from_secs(10),
+        answer: Duration::from_secs(10),
+    };
+    let runtime = new_runtime().unwrap();
+    let grpc = Grpc::connect(address, limits, runtime, Interrupt::default()).unwrap();
+    (program, UnaryTurns::new(grpc))
+}
+
+fn initialize(instance: u64) -> v1::InitializeRequest {
+    let parameters = [("m", 1.3), ("c", 1.7e3), ("d", 10.3), ("v0", 97.0)];
+    let parameters = parameters.map(|(name, value)| {
+        let kind = Some(Kind::Number(value));
+        (name.to_owned(), v1::Value { kind })
+    });
+    v1::InitializeRequest {
+        instance,
+        protocol: Some(PROTOCOL),
+        model: "oscillator".into(),
+        parameters: parameters.into(),
+        inputs: vec!["f".into()],
+        coupling_outputs: vec!["x".into(), "v".into(), "a".into()],
+        ..v1::InitializeRequest::default()
+    }
+}
+
+fn force(end: f64) -> Vec<v1::Signal> {
+    vec![v1::Signal {
+        input: 0,
+        nodes: vec![7e-4, 0.0],
+        values: vec![end, -17.9],
+    }]
+}
+
+/// The worker has the unary calls only; an exchange made of them goes back, and takes samples, as any other.
+#[test]
+fn an_advance_is_taken_back_and_samples_disturb_nothing() {
+    let workshop = Workshop::new();
+    let (_program, calls) = serve(&workshop);
+    let advance = |end, samples: &[f64]| {
+        Some(v1::Advance {
+            t: 0.0,
+            step: 7e-4,
+            signals: force(end),
+            samples: samples.to_vec(),
+        })
+    };
+    let predict = v1::Predict {
+        t: 7e-4,
+        step: 7e-4,
+        signals: force(3.0),
+        perturbed: force(4.0),
+        directions: force(1.0),
+    };
+    let go = |instance, turns: &[(bool, Option<v1::Advance>)]| {
+        calls.initialize(&initialize(instance)).unwrap();
+        let mut reply = v1::ExchangeReply::default();
+        for ((go_back, advance), sequence) in turns.iter().zip(1..) {
+            let request = v1::ExchangeRequest {
+                instance,
+                sequence,
+                go_back: *go_back,
+                advance: advance.clone(),
+                predict: Some(predict.clone()),
+                ..v1::ExchangeRequest::default()
+            };
+            calls.exchange(&request, &mut reply).unwrap();
+        }
+        reply
+    };
+    let straight = go(1, &[(false, advance(5.0, &[]))]);
+    let wandering = [
+        (false, advance(-31.0, &[])),
+        (true, None),
+        (false, advance(9.0, &[3e-4])),
+        (true, advance(5.0, &[1e-4, 6e-4])),
+    ];
+    let mut wandering = go(2, &wandering);
+    assert_eq!(std::mem::take(&mut wandering.samples).len(), 2);
+    assert_eq!(wandering.derivatives.len(), 1);
+    let parts = |reply: v1::ExchangeReply| {
+        let all = [reply.perturbed, reply.derivatives].concat();
+        let all = reply.advanced.into_iter().chain(reply.predicted).chain(all);
+        let bits = |outputs: v1::Outputs| outputs.values.into_iter().map(f64::to_bits);
+        all.map(|outputs| bits(outputs).collect()).collect()
+    };
+    let expected: Vec<Vec<u64>> = parts(straight);
+    assert_eq!(expected.len(), 4);
+    assert_eq!(parts(wandering), expected);
 }
