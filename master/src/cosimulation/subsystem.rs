@@ -1,5 +1,8 @@
 //! One subsystem as the master sees it: a connection, the last messages, and outputs at the present macro point.
 
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
 
@@ -200,7 +203,10 @@ impl Subsystem {
             )?;
             let derivatives = (&reply.derivatives[..], predict.directions.len());
             self.check_each(
-                ["directions", "derivatives of predicted outputs"],
+                [
+                    "directional derivatives",
+                    "derivatives of predicted outputs",
+                ],
                 derivatives,
                 names,
                 step,
@@ -219,7 +225,7 @@ impl Subsystem {
             let derivatives = (&reply.evaluated_derivatives[..], evaluate.directions.len());
             self.check_each(
                 [
-                    "directions of an evaluation",
+                    "directional derivatives of an evaluation",
                     "derivatives of evaluated outputs",
                 ],
                 derivatives,

@@ -68,6 +68,7 @@ pub fn model(setpoint: f64) -> v1::Model {
         states: vec![state("integral", "integral0")],
         capabilities: Some(v1::Capabilities {
             joint_loads: false,
+            directional_derivatives: true,
             ..solvers::capabilities()
         }),
     }

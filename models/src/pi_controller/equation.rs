@@ -36,6 +36,7 @@ impl EquationOfMotion for Controller {
     type Inputs = Inputs;
 
     const STATE_NAMES: &'static [&'static str] = &["integral"];
+    const IS_LINEAR: bool = true;
 
     fn rate(&self, _: &State, &[setpoint, measured]: &Inputs) -> State {
         [self.integral * (setpoint - measured)]

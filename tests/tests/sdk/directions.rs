@@ -12,6 +12,7 @@ both_ways!(
     the_exact_solver_gives_the_closed_form,
     every_solver_gives_the_quotient_of_differences,
     an_evaluation_gives_the_feed_through,
+    a_controller_gives_its_closed_form,
     a_derivative_needs_no_step_before_it,
     derivatives_disturb_nothing_and_are_counted_apart,
     who_does_not_offer_them_refuses,
@@ -181,6 +182,39 @@ fn an_evaluation_gives_the_feed_through(serve: Serve) {
     }
 }
 
+/// `control = k e + i` with `i' = q e`, `e = setpoint - measured`.
+fn a_controller_gives_its_closed_form(serve: Serve) {
+    const K: f64 = 7.3;
+    const Q: f64 = 41.9;
+    let parameters = [("proportional", K), ("integral", Q), ("integral0", 0.9)];
+    let parameters = parameters.map(|(name, value)| (name.to_owned(), number(value)));
+    let peer = serve(host());
+    for route in ROUTES {
+        for (solver, place) in ["radau5", "rk4"].into_iter().zip(0..) {
+            let request = v1::InitializeRequest {
+                model: "pi-controller".into(),
+                parameters: parameters.clone().into(),
+                inputs: vec!["measured".into()],
+                coupling_outputs: vec!["control".into()],
+                recorded_outputs: vec![],
+                ..oscillator(5, solver)
+            };
+            let mut driver = route.drive(&peer, &request, place);
+            let rising = through(0, &[(0.0, 0.2), (STEP, 1.3)]);
+            let request = v1::ExchangeRequest {
+                evaluate: Some(evaluate(0, 4.0)),
+                ..look_ahead(4.0)
+            };
+            let reply = driver.turn(with_directions(request, &[rising])).unwrap();
+            let mean = 0.5 * (0.2 + 1.3);
+            let expected = -K * 1.3 - Q * mean * STEP;
+            assert_near(&reply.derivatives[0].values, &[expected], 1e-14, solver);
+            let direct = &reply.evaluated_derivatives[0].values;
+            assert_near(direct, &[-K * 0.2], 1e-15, solver);
+        }
+    }
+}
+
 /// The adaptive solver has no internal steps yet that it could take again.
 fn a_derivative_needs_no_step_before_it(serve: Serve) {
     let peer = serve(host());
@@ -239,7 +273,7 @@ fn who_does_not_offer_them_refuses(serve: Serve) {
         .filter(|model| model.capabilities.unwrap().directional_derivatives)
         .map(|model| model.name)
         .collect();
-    assert_eq!(offering, ["oscillator"]);
+    assert_eq!(offering, ["oscillator", "pi-controller"]);
     for route in ROUTES {
         for (place, (name, instance)) in (0..).zip(subjects()) {
             let mut driver = route.drive(&peer, &instance, place);

@@ -54,7 +54,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             max_input_degree: Some(7),
             exportable_snapshot: false,
             joint_loads: !["oscillator", "pi-controller", "tank"].contains(&model.name.as_str()),
-            directional_derivatives: model.name == "oscillator",
+            directional_derivatives: ["oscillator", "pi-controller"].contains(&model.name.as_str()),
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }
