@@ -64,6 +64,40 @@ fn the_initial_multipliers_are_those_of_the_consistent_start() {
     assert!((lambda[0] + 1.839375).abs() < 1e-12 && (lambda[1] + 0.613125).abs() < 1e-12);
 }
 
+/// Macro steps at which Hermite coupling stands above rounding.
+const LONG_STEPS: [f64; 3] = [2e-2, 1e-2, 5e-3];
+
+#[test]
+fn orders_of_hermite_coupling() {
+    let cases = [
+        ("hermite variant=apv", [5.0, 5.0, 5.0]),
+        ("hermite variant=c0v", [4.0, 4.0, 2.0]),
+        // Tends to 6 as H falls below the time constant of link 1, 7 ms.
+        ("hermite variant=c0pva", [5.7, 5.6, 3.3]),
+    ];
+    assert_all_orders(&cases, &LONG_STEPS, |coupling, h| {
+        errors(&trajectory(coupling, h))
+    });
+}
+
+/// With one corrector pass; S1's methods with k = 0 need H = 1e-3 for that.
+#[test]
+fn hermite_coupling_at_a_long_step() {
+    let trajectory = trajectory("hermite variant=apv", 2e-2);
+    let motions = DoublePendulum::schweizer_lu()
+        .motions(&trajectory.column("t"))
+        .unwrap();
+    for link in 0..2 {
+        let angles = trajectory.column(&format!("link{}.angle", link + 1));
+        let errors = angles.iter().zip(&motions);
+        let largest = errors.fold(0.0f64, |most, (angle, motion)| {
+            most.max((angle - motion.angles[link]).abs())
+        });
+        println!("link {}: {largest:e} rad", link + 1);
+        assert!(largest < 5e-7, "link {}: {largest:e} rad", link + 1);
+    }
+}
+
 #[test]
 fn orders_of_convergence() {
     let cases = [

@@ -127,6 +127,19 @@ const COUPLINGS: [(&str, [f64; 4]); 4] = [
     ("index=3 a=0 b=0 degree=0", [4.0, 2.0, 1.0, 2.0]),
 ];
 
+/// Longer steps: Hermite coupling falls to rounding sooner.
+const LONG_STEPS: [f64; 3] = [8e-3, 4e-3, 2e-3];
+
+#[test]
+fn orders_of_hermite_coupling() {
+    let coupling = "method=hermite variant=apv";
+    let errors = LONG_STEPS.map(|h| {
+        let scene = scene(&format!("{coupling} macro_step={h}"), &[]);
+        errors(&run(&scene, Place::InProcess), &SHAKEN)
+    });
+    assert_least_orders(coupling, &LONG_STEPS, &errors, [5.0, 5.0, 4.5, 4.9]);
+}
+
 fn assert_orders(linkage: &FourBar, others: &[&str]) {
     for (coupling, least) in COUPLINGS {
         let errors = STEPS.map(|h| {

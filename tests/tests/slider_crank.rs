@@ -6,7 +6,7 @@
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
 use linchpin_models::reference::SliderCrank;
-use linchpin_tests::convergence::{assert_all_orders, slope_of};
+use linchpin_tests::convergence::{assert_all_orders, assert_least_orders, slope_of};
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -62,6 +62,21 @@ fn the_start_is_that_of_the_paper() {
     let start = trajectory("weighted a=1 b=0 degree=0", 1e-2);
     assert!((start.column("slider.lambda")[0] - 5.124820).abs() < 5e-7);
     assert!((total_energy(&start)[0] - 26.556718).abs() < 5e-7);
+}
+
+/// The exchanged motion limits the order to 5. The crank turns fast: at these steps the highest derivatives still matter.
+#[test]
+fn orders_of_hermite_coupling() {
+    let steps = [2e-2, 1.4e-2, 1e-2];
+    for (variant, least) in [
+        ("apv", [5.0, 5.0, 4.5]),
+        ("c0v", [4.0, 4.0, 2.0]),
+        ("c0pva", [5.0, 5.0, 5.0]),
+    ] {
+        let coupling = format!("hermite variant={variant}");
+        let errors = steps.map(|h| errors(&trajectory(&coupling, h)));
+        assert_least_orders(&coupling, &steps, &errors, least);
+    }
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub struct Columns {
     of_input: Vec<Range<usize>>,
     /// Number of columns of each subsystem.
     of_subsystem: Vec<usize>,
-    /// Whether the last look-ahead was asked for columns.
+    /// Whether the last look-ahead was asked for columns that were not taken yet.
     are_fresh: bool,
 }
 
@@ -121,7 +121,7 @@ impl Columns {
 
     /// Takes the difference quotients of the last answers of all workers, if columns were asked for.
     pub fn difference(&mut self, parts: &Parts) {
-        if !self.are_fresh {
+        if !std::mem::take(&mut self.are_fresh) {
             return;
         }
         for (input, columns) in parts.layout.inputs.iter().zip(&self.of_input) {

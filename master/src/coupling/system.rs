@@ -163,7 +163,7 @@ impl System {
             }
             if let Some(rates) = exchanged.rates_among(&self.unknowns) {
                 let own = outputs(exchanged.subsystem);
-                let phi = exchanged.vector(point.w);
+                let phi = exchanged.vector(&shown);
                 let speed = rates.speed(own, &phi);
                 let acceleration = rates.acceleration(own);
                 for component in 0..exchanged.size() {

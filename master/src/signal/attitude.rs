@@ -55,6 +55,29 @@ pub fn vector_change(phi: &Vector3<f64>, theta: &Vector3<f64>) -> Vector3<f64> {
     theta - 0.5 * turned + c * phi.cross(&turned)
 }
 
+/// Derivative of [`vector_change`] with respect to `phi` in the direction `d`, for the same `theta`:
+/// `-d x theta / 2 + c (d x (phi x theta) + phi x (d x theta)) + (c'/p) (phi . d) phi x (phi x theta)`.
+pub fn vector_change_rate(
+    phi: &Vector3<f64>,
+    theta: &Vector3<f64>,
+    d: &Vector3<f64>,
+) -> Vector3<f64> {
+    let angle = phi.norm();
+    let square = angle * angle;
+    let (c, slope) = if angle < SMALL {
+        (1.0 / 12.0 + square / 720.0, 1.0 / 360.0)
+    } else {
+        let half = 0.5 * angle;
+        let c = (1.0 - half / half.tan()) / square;
+        let of_square = (half / half.sin().powi(2) - 1.0 / half.tan()) / (4.0 * angle);
+        (c, 2.0 * (of_square - c) / square)
+    };
+    let turned = phi.cross(theta);
+    -0.5 * d.cross(theta)
+        + c * (d.cross(&turned) + phi.cross(&d.cross(theta)))
+        + slope * phi.dot(d) * phi.cross(&turned)
+}
+
 /// The small further rotation of a change of `phi`, the inverse of [`vector_change`]:
 /// `d + a phi x d + b phi x (phi x d)` with `a = (1 - cos p) / p^2`, `b = (p - sin p) / p^3`.
 pub fn rotation_of_change(phi: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<f64> {
@@ -108,6 +131,21 @@ mod tests {
             let change = vector_change(&phi, &theta);
             prop_assert!((difference - change).norm() < 1e-7, "{difference} {change}");
             prop_assert!((rotation_of_change(&phi, &change) - theta).norm() < 1e-10);
+        }
+
+        #[test]
+        fn changes_of_changes_are_differences(
+            phi in vector(),
+            theta in vector(),
+            d in vector(),
+            scale in 1e-5f64..1.0,
+        ) {
+            let phi = phi * scale;
+            let step = 1e-6;
+            let at = |s: f64| vector_change(&(phi + s * d), &theta);
+            let difference = (at(step) - at(-step)) / (2.0 * step);
+            let rate = vector_change_rate(&phi, &theta, &d);
+            prop_assert!((difference - rate).norm() < 1e-7, "{difference} {rate}");
         }
 
         #[test]

@@ -60,10 +60,13 @@ pub struct Hermite {
     multipliers: Vec<f64>,
     /// All variables at the start of the step.
     held: Vec<f64>,
+    /// Whether `start` is linearised about the present macro point.
+    start_is_known: bool,
     start: Linear,
     end: Linear,
     stack: Stack,
     solver: LinearSolver,
+    start_solver: LinearSolver,
     sample: Sample,
     memory: Vec<f64>,
     change: Vec<f64>,
@@ -106,6 +109,7 @@ impl Hermite {
         let mut arcs = Arcs::new(layout, variant, unknowns.clone(), history);
         start_motion(&mut arcs, parts);
         let start = Linear::new(increment, Ahead::Now, parts, Unknowns::ends(layout));
+        let start_solver = LinearSolver::new(start.system.pattern());
         let sample = Sample::new(&unknowns, size);
         let change = vec![0.0; unknowns.len()];
         let end = Linear::new(increment, Ahead::Step, parts, unknowns);
@@ -114,11 +118,13 @@ impl Hermite {
             variant,
             multipliers: arcs.starts().take(layout.rows.len()).collect(),
             before: arcs.clone(),
+            held: arcs.starts().collect(),
             arcs,
-            held: vec![0.0; size],
+            start_is_known: false,
             start,
             end,
             solver: LinearSolver::new(stack.pattern()),
+            start_solver,
             stack,
             sample,
             memory: vec![0.0; size],
@@ -190,9 +196,6 @@ impl Corrector for Hermite {
         self.arcs.predict(step.length);
         self.sample.take(&self.arcs);
         check_finite(self.sample.ends(), parts, step)?;
-        for (held, start) in self.held.iter_mut().zip(self.arcs.starts()) {
-            *held = start;
-        }
         parts.prepare_prediction(step.start, step.length);
         let look = Look {
             predicted: &self.arcs,
@@ -213,10 +216,8 @@ impl Corrector for Hermite {
         let predicted = |subsystem: usize| parts.subsystems[subsystem].predicted();
         let point = self.sample.point(step.length, self.arcs.attitudes());
         self.end.assemble(parts, predicted, point);
-        if self.variant.starts_anew() {
-            let now = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
-            let point = Point::ends(&self.held, self.arcs.attitudes());
-            self.start.assemble(parts, now, point);
+        if self.variant.starts_anew() && !self.start_is_known {
+            self.linearise_start(parts);
         }
         let (end, start) = (&self.end.system, &self.start.system);
         self.stack.assemble_jacobian(end, start, step.length);
@@ -240,22 +241,49 @@ impl Corrector for Hermite {
     fn move_on(&mut self, _step: MacroStep) {
         self.before.copy_from(&self.arcs);
         self.arcs.move_on(self.sample.ends(), &self.accelerations);
-        self.read_multipliers();
+        self.read_starts();
     }
 
     fn move_back(&mut self) {
         std::mem::swap(&mut self.arcs, &mut self.before);
         self.sample.take(&self.arcs);
-        self.read_multipliers();
+        self.read_starts();
     }
 
     fn judge(&mut self, parts: &Parts) -> Verdict {
+        if self.variant.starts_anew() {
+            self.linearise_start(parts);
+            self.refine_multipliers();
+        }
         self.promise.judge(&self.end.system, parts, &self.change)
     }
 }
 
 impl Hermite {
-    fn read_multipliers(&mut self) {
+    /// Linearises `g''` at the present macro point about the outputs there.
+    fn linearise_start(&mut self, parts: &Parts) {
+        let now = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+        let point = Point::ends(&self.held, self.arcs.attitudes());
+        self.start.assemble(parts, now, point);
+        self.start_is_known = true;
+    }
+
+    /// The multipliers with which `g'' = 0` at the present macro point: the end values of the step before are as good as the
+    /// polynomial is, these as good as the motion. Where nothing determines them the end values stay.
+    fn refine_multipliers(&mut self) {
+        let (pattern, jacobian, change) = self.start.system.level_equation(Level::Acceleration);
+        if self.start_solver.solve(pattern, jacobian, change).is_ok() {
+            for (multiplier, change) in self.multipliers.iter_mut().zip(change) {
+                *multiplier += *change;
+            }
+        }
+    }
+
+    fn read_starts(&mut self) {
+        self.start_is_known = false;
+        for (held, start) in self.held.iter_mut().zip(self.arcs.starts()) {
+            *held = start;
+        }
         for (multiplier, start) in self.multipliers.iter_mut().zip(self.arcs.starts()) {
             *multiplier = start;
         }

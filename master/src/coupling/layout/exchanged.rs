@@ -11,6 +11,7 @@ use crate::coupling::system::Point;
 use crate::coupling::unknowns::Unknowns;
 use crate::signal::attitude::{
     attitude, rotation_of_change, rotation_vector, small_rotation, unit_quaternion, vector_change,
+    vector_change_rate,
 };
 use crate::signal::vector_at;
 
@@ -91,11 +92,11 @@ impl Exchanged {
         }
     }
 
-    /// The rotation vector in the values `w` of all variables if this is one; otherwise 0.
-    pub fn vector(&self, w: &[f64]) -> Vector3<f64> {
+    /// The rotation vector if `shown`, what the outputs say, is one; otherwise 0.
+    pub fn vector(&self, shown: &Vector3<f64>) -> Vector3<f64> {
         match self.what {
             What::Output(_) => Vector3::zeros(),
-            What::Attitude { .. } => vector_at(w, self.first),
+            What::Attitude { .. } => *shown,
         }
     }
 
@@ -127,7 +128,11 @@ impl Exchanged {
             return [change; 3];
         };
         let step = point.step;
-        let speed = rates.speed(column, &self.vector(point.w));
+        let shown = self.read(outputs, point.attitudes, point.w);
+        let phi = self.vector(&shown);
+        let turned =
+            vector_change_rate(&phi, &vector(&rates.speed, outputs), &self.vector(&change));
+        let speed = rates.speed(column, &phi) + turned;
         let acceleration = rates.acceleration(column);
         [change, step * speed, step * step * acceleration]
     }

@@ -12,16 +12,34 @@ fn assert_coupling_mistake(settings: &str, at: &str, words: &[&str]) {
 
 #[test]
 fn an_unknown_method_is_told_with_all_methods() {
-    let all = ["baumgarte, weighted, explicit, jacobi, gauss-seidel"];
+    let all = ["hermite, baumgarte, weighted, explicit, jacobi, gauss-seidel"];
     assert_mistake(
-        &[("\"baumgarte\" ", "\"hermite\" ")],
+        &[("\"baumgarte\" ", "\"galerkin\" ")],
         "method",
-        &[&["\"hermite\""], &all[..]].concat(),
+        &[&["\"galerkin\""], &all[..]].concat(),
     );
     assert_mistake(
         &[("\"baumgarte\" ", "\"Baumgart\" ")],
         "method",
         &["did you mean `baumgarte`?"],
+    );
+}
+
+#[test]
+fn a_variant_of_hermite_coupling_has_its_name_and_its_degree() {
+    assert_coupling_mistake(
+        "method = 'hermite'\nvariant = 'apc'",
+        "variant",
+        &[
+            "\"apc\"",
+            "apv, c0pv, av, c0v, c0pva",
+            "did you mean `apv`?",
+        ],
+    );
+    assert_coupling_mistake(
+        "method = 'hermite'\ndegree = 2",
+        "degree",
+        &["`hermite` has no `degree`"],
     );
 }
 

@@ -1,0 +1,75 @@
+//! Hermite coupling of the oscillator of S1 Sect. 4.1 against the closed form: accuracy, orders, drift.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use linchpin::connect::Place;
+use linchpin_master::scene::Scene;
+use linchpin_tests::convergence::assert_all_orders;
+use linchpin_tests::errors::Errors;
+use linchpin_tests::runs::run;
+use linchpin_tests::scenes::oscillator_with;
+
+fn scene(coupling: &str, h: f64) -> Scene {
+    let coupling = format!("method=hermite {coupling} macro_step={h:e}");
+    let velocities = "output.variables=[\"mass1.v\", \"mass2.v\"]";
+    oscillator_with(&coupling, &["scene.t_end=1", velocities])
+}
+
+fn errors(coupling: &str, h: f64) -> [f64; 3] {
+    let Errors { x, state, lambda } = Errors::against_closed_form(&scene(coupling, h));
+    [x, state, lambda]
+}
+
+#[test]
+fn orders_of_all_variants() {
+    let cases = [
+        ("variant=apv", [5.0, 5.0, 5.0]),
+        ("variant=c0pv", [4.0, 4.0, 2.0]),
+        ("variant=av", [3.0, 3.0, 3.0]),
+        ("variant=c0v", [4.0, 4.0, 2.0]),
+        ("variant=c0pva", [6.0, 6.0, 6.0]),
+    ];
+    assert_all_orders(&cases, &[1.6e-2, 8e-3, 4e-3], errors);
+}
+
+#[test]
+fn errors_at_one_macro_step() {
+    for (variant, most) in [("apv", 2e-9), ("c0pv", 4e-8), ("c0pva", 3e-11)] {
+        let [x, ..] = errors(&format!("variant={variant}"), 5e-3);
+        assert!(x < most, "{variant}: {x:e}");
+    }
+}
+
+/// The position condition is met anew in every step: what is left of it does not grow.
+#[test]
+fn no_drift() {
+    for variant in ["apv", "c0pv", "c0pva"] {
+        let scene = oscillator_with(
+            &format!("method=hermite variant={variant} macro_step=5e-3"),
+            &["scene.t_end=20"],
+        );
+        let trajectory = run(&scene, Place::InProcess);
+        let open = |rows: &[f64]| rows.iter().fold(0.0f64, |most, g| most.max(g.abs()));
+        let gaps = trajectory.column("link.residual.position");
+        let largest = trajectory
+            .column("mass1.x")
+            .iter()
+            .fold(0.0f64, |most, x| most.max(x.abs()));
+        println!("{variant}: open by {:e} of {largest:e} m", open(&gaps));
+        assert!(
+            open(&gaps) < 1e-13 * largest,
+            "{variant}: {:e}",
+            open(&gaps)
+        );
+        assert!(open(&gaps[2000..]) <= open(&gaps[..2000]), "{variant}");
+    }
+}
+
+/// A step that does not divide the time leaves two shorter ones: nothing of the step before is of another length.
+#[test]
+fn shortened_steps_keep_the_order() {
+    let errors = [1.7e-2, 8.7e-3, 4.3e-3].map(|h| (h, errors("variant=apv", h)[0]));
+    for (h, error) in errors {
+        assert!(error < 9.0e2 * h.powi(5), "{h}: {error:e}");
+    }
+}
