@@ -8,6 +8,9 @@ use super::ProbeError;
 const BALANCED: f64 = 0.95;
 
 /// Largest absolute value of the eigenvalues.
+///
+/// # Errors
+/// [`ProbeError::NoConvergence`] if the eigenvalues cannot be computed.
 pub fn spectral_radius(matrix: &Mat<f64>) -> Result<f64, ProbeError> {
     let size = matrix.nrows();
     let eigenvalues = balanced(matrix)
@@ -22,7 +25,7 @@ pub fn spectral_radius(matrix: &Mat<f64>) -> Result<f64, ProbeError> {
 /// `D^-1 A D` with a diagonal `D` of powers of two that makes the sums of each row and its column alike (Parlett &
 /// Reinsch 1969). The eigenvalues stay, without any rounding. Positions, velocities and multipliers differ by many
 /// decades; without balancing, the rounding of the largest entries would hide how far the radius is from 1.
-fn balanced(matrix: &Mat<f64>) -> Mat<f64> {
+pub fn balanced(matrix: &Mat<f64>) -> Mat<f64> {
     let mut balanced = matrix.clone();
     let size = balanced.nrows();
     let mut is_done = false;
