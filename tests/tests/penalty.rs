@@ -12,7 +12,7 @@ use linchpin_tests::masses::{FOUR, scene_text};
 use linchpin_tests::runs::{run, try_run};
 use linchpin_tests::scenes::{oscillator_with, with_settings};
 use linchpin_tests::spring_pair::SpringPair;
-use linchpin_tests::tuning::tune;
+use linchpin_tests::tuning::{OSCILLATOR, tune};
 
 const STIFFNESS: f64 = 3.1e4;
 const DAMPING: f64 = 43.0;
@@ -138,14 +138,27 @@ fn a_joint_that_is_open_at_the_start_is_refused() {
     assert!((force.column("link.lambda")[0] - 7e3).abs() < 1e-9);
 }
 
+/// Stiffness goes with 1/H^2 and damping with 1/H, the error with H^2; index 1 of degree 1 has 8.3e-9 at H = 1e-3.
+#[test]
+fn tuned_springs_reach_their_errors() {
+    for tuned in OSCILLATOR {
+        let springs = [tuned.stiffness, tuned.damping];
+        let error = oscillator_error("jacobi", tuned.degree, springs, tuned.macro_step);
+        assert!(
+            (error / tuned.error - 1.0).abs() < 0.05,
+            "{error:e} {tuned:?}"
+        );
+    }
+}
+
 /// What penalty coupling can reach on S1's oscillator if stiffness and damping are tuned with the solution known.
 #[test]
 #[ignore = "prints a table"]
 fn best_springs_of_the_oscillator() {
-    for h in [1e-2, 5e-3, 2e-3, 1e-3, 5e-4] {
+    for h in [1e-2_f64, 5e-3, 2e-3, 1e-3, 5e-4] {
         for order in ["jacobi", "gauss-seidel"] {
             for degree in 0..=3 {
-                let best = tune([5.0, 2.0], |values| {
+                let best = tune([-2.0 * h.log10(), -h.log10()], 3, |values| {
                     oscillator_error(order, degree, values, h)
                 });
                 println!("H = {h:e} {order} k = {degree}: {best:?}");

@@ -123,7 +123,7 @@ fn springs(method: &str, degree: usize, [stiffness, damping]: [f64; 2], h: f64) 
 
 /// The smallest error in the position of the first mass against the rigid joint.
 fn best_of_degree(method: &str, degree: usize, h: f64) -> Tuned {
-    tune([4.0, 1.5], |values| {
+    tune([4.0, 1.5], 6, |values| {
         let scene = springs(method, degree, values, h);
         match try_run(&scene, Place::InProcess, &Options::default()) {
             Ok(trajectory) => Errors::of(&trajectory, closed_form(&scene)).x,

@@ -282,7 +282,7 @@ fn begin(
 ) -> Result<Scheme, RunError> {
     let coupling = &scene.coupling;
     let InitialState {
-        variables: values,
+        variables: mut values,
         attitudes,
     } = initial;
     let variables = parts
@@ -317,7 +317,6 @@ fn begin(
             angles,
         } => {
             let springs = penalty::springs_of(scene, lengths, angles, &parts.layout)?;
-            let mut values = values;
             write_loads(&springs, parts, &mut values);
             let history = history_of(scene, options, variables, &values, attitudes);
             let degree = coupling.exchanged_degree;
