@@ -12,11 +12,11 @@ fn assert_coupling_mistake(settings: &str, at: &str, words: &[&str]) {
 
 #[test]
 fn an_unknown_method_is_told_with_all_methods() {
-    let all = ["baumgarte, weighted, explicit, penalty, jacobi, gauss-seidel"];
+    let all = ["hermite, baumgarte, weighted, explicit, penalty, jacobi, gauss-seidel"];
     assert_mistake(
-        &[("\"baumgarte\" ", "\"hermite\" ")],
+        &[("\"baumgarte\" ", "\"newmark\" ")],
         "method",
-        &[&["\"hermite\""], &all[..]].concat(),
+        &[&["\"newmark\""], &all[..]].concat(),
     );
     assert_mistake(
         &[("\"baumgarte\" ", "\"Baumgart\" ")],
