@@ -6,14 +6,14 @@
 //! the first step on.
 
 mod error;
-mod spectrum;
+pub mod spectrum;
 
 use faer::Mat;
 
 use crate::CoSimulation;
 use crate::cosimulation::{Connect, Options, describe};
 use crate::results::Row;
-use crate::scene::{Increment, JointKind, Method, Scene};
+use crate::scene::{Increment, JointKind, Method, Order, Scene};
 
 use linchpin_proto::v1::{self, value::Kind};
 
@@ -266,6 +266,17 @@ fn memory_of(scene: &Scene) -> Result<usize, ProbeError> {
     match scene.coupling.method {
         Method::Baumgarte { .. } | Method::Weighted { .. } => Ok(degree + 1),
         Method::Hermite { variant } => Ok(usize::from(!variant.starts_anew())),
+        Method::Penalty {
+            order: Order::Jacobi,
+            ..
+        } => Ok(degree + 1),
+        Method::Penalty {
+            order: Order::GaussSeidel,
+            ..
+        } => match scene.coupling.exchanged_degree {
+            0 => Ok(degree + 1),
+            degree => Err(ProbeError::RemembersOutputs { degree }),
+        },
         // The multipliers follow from the states at the same macro point.
         Method::Explicit { .. } => Ok(0),
         Method::Jacobi { .. } | Method::GaussSeidel { .. } if degree == 0 => Ok(0),

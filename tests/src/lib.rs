@@ -12,6 +12,8 @@ pub mod hinges;
 pub mod in_space;
 pub mod masses;
 pub mod process;
+pub mod random_pairs;
 pub mod runs;
 pub mod scenes;
 pub mod spring_pair;
+pub mod tuning;

@@ -42,7 +42,7 @@ const RADAU5: &str = r#"{ kind = "radau5" }"#;
 const RK4: &str = r#"{ kind = "rk4", step = 1e-4 }"#;
 
 /// Coupling settings, and the solver of all masses.
-const CASES: [(&str, &str); 23] = [
+const CASES: [(&str, &str); 25] = [
     ("method=baumgarte index=1 degree=0", EXACT),
     ("method=baumgarte index=1 degree=1", EXACT),
     ("method=baumgarte index=1 degree=2", EXACT),
@@ -55,6 +55,11 @@ const CASES: [(&str, &str); 23] = [
     ("method=weighted index=1 degree=3", EXACT),
     ("method=weighted index=2 degree=0", EXACT),
     ("method=explicit mu=10H", EXACT),
+    ("method=penalty stiffness=3e4 damping=20 degree=1", EXACT),
+    (
+        "method=penalty order=gauss-seidel stiffness=3e4 damping=20 degree=1",
+        EXACT,
+    ),
     ("method=jacobi stiffness=3e4 damping=20 degree=1", EXACT),
     (
         "method=gauss-seidel stiffness=3e4 damping=20 degree=0",
@@ -79,7 +84,7 @@ fn scene() -> String {
     for (number, (settings, solver)) in CASES.iter().enumerate() {
         let coupling = settings.split(' ').map(|setting| {
             let (key, value) = setting.split_once('=').unwrap();
-            let is_text = matches!(key, "method" | "mu");
+            let is_text = matches!(key, "method" | "mu" | "order");
             let value = if is_text {
                 format!("{value:?}")
             } else {

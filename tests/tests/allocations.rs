@@ -82,6 +82,17 @@ fn a_macro_step_allocates_nothing() {
         ],
         &["coupling.method=explicit", "coupling.mu=1e-2"],
         &[
+            "coupling.method=penalty",
+            "coupling.stiffness=1e5",
+            "coupling.damping=10",
+        ],
+        &[
+            "coupling.method=penalty",
+            "coupling.order=gauss-seidel",
+            "coupling.stiffness=1e5",
+            "coupling.degree=2",
+        ],
+        &[
             "coupling.method=jacobi",
             "coupling.stiffness=1e5",
             "coupling.damping=10",

@@ -12,7 +12,7 @@ use linchpin_tests::runs::run;
 use linchpin_tests::scenes::{RADAU5, with_settings};
 
 /// Every method, with every degree at which it is stable.
-const COUPLINGS: [&str; 19] = [
+const COUPLINGS: [&str; 22] = [
     "method=baumgarte index=1 beta=2H gamma=H^2 degree=0",
     "method=baumgarte index=1 beta=2H gamma=H^2 degree=1",
     "method=baumgarte index=1 beta=2H gamma=H^2 degree=2",
@@ -27,6 +27,9 @@ const COUPLINGS: [&str; 19] = [
     "method=weighted index=2 a=1 degree=0",
     "method=weighted index=3 degree=0",
     "method=explicit mu=1e-2",
+    "method=penalty stiffness=1.3e4 damping=57 degree=0",
+    "method=penalty stiffness=1.3e4 damping=57 degree=2",
+    "method=penalty order=gauss-seidel stiffness=1.3e4 damping=57 degree=1",
     "method=jacobi stiffness=1.3e4 damping=57 degree=0",
     "method=jacobi stiffness=1.3e4 damping=57 degree=3",
     "method=gauss-seidel stiffness=1.3e4 damping=57 degree=0",

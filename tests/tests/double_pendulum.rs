@@ -4,10 +4,13 @@
 
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
+use linchpin_master::cosimulation::Options;
+use linchpin_master::scene::Scene;
 use linchpin_models::reference::DoublePendulum;
 use linchpin_tests::convergence::assert_all_orders;
-use linchpin_tests::runs::{Trajectory, run};
+use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
+use linchpin_tests::tuning::{DOUBLE_PENDULUM, tune};
 
 const SCENE: &str = include_str!("../../scenes/double-pendulum.toml");
 
@@ -16,12 +19,13 @@ const SOLVER: &str = "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-12, atol
 
 const STEPS: [f64; 4] = [4e-3, 2e-3, 1e-3, 5e-4];
 
-fn trajectory(coupling: &str, h: f64) -> Trajectory {
+fn scene(coupling: &str, h: f64) -> Scene {
     let coupling = format!("method={coupling} macro_step={h}");
-    run(
-        &with_settings(SCENE, &coupling, &[SOLVER, "scene.t_end=0.4"]),
-        Place::InProcess,
-    )
+    with_settings(SCENE, &coupling, &[SOLVER, "scene.t_end=0.4"])
+}
+
+fn trajectory(coupling: &str, h: f64) -> Trajectory {
+    run(&scene(coupling, h), Place::InProcess)
 }
 
 /// Relative errors (rms) of the angles, the energy, and the multipliers.
@@ -120,4 +124,40 @@ fn orders_of_convergence() {
     assert_all_orders(&cases, &STEPS, |coupling, h| {
         errors(&trajectory(coupling, h))
     });
+}
+
+#[test]
+fn tuned_springs_reach_their_errors() {
+    for tuned in DOUBLE_PENDULUM {
+        let [angles, ..] = errors(&trajectory(&tuned.coupling(), tuned.macro_step));
+        assert!(
+            (angles / tuned.error - 1.0).abs() < 0.05,
+            "{angles:e} {tuned:?}"
+        );
+    }
+}
+
+/// What penalty coupling can reach if stiffness and damping are tuned with the solution known.
+#[test]
+#[ignore = "prints a table"]
+fn best_springs() {
+    for h in [1e-2_f64, 1e-3] {
+        for degree in 0..=1 {
+            let best = tune([-2.0 * h.log10(), -h.log10()], 2, |values| {
+                penalty_error("jacobi", degree, values, h)
+            });
+            println!("H = {h:e} k = {degree}: {best:?}");
+        }
+    }
+}
+
+/// Error of the angles; infinite if the run diverges.
+fn penalty_error(order: &str, degree: usize, [stiffness, damping]: [f64; 2], h: f64) -> f64 {
+    let springs =
+        format!("order={order} degree={degree} stiffness={stiffness:e} damping={damping:e}");
+    let scene = scene(&format!("penalty {springs}"), h);
+    match try_run(&scene, Place::InProcess, &Options::default()) {
+        Ok(trajectory) => errors(&trajectory)[0],
+        Err(_) => f64::INFINITY,
+    }
 }

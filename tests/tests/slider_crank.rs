@@ -5,10 +5,13 @@
 
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
+use linchpin_master::cosimulation::Options;
+use linchpin_master::scene::Scene;
 use linchpin_models::reference::SliderCrank;
 use linchpin_tests::convergence::{assert_all_orders, assert_least_orders, slope_of};
-use linchpin_tests::runs::{Trajectory, run};
+use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
+use linchpin_tests::tuning::{SLIDER_CRANK, tune};
 
 const SCENE: &str = include_str!("../../scenes/slider-crank.toml");
 
@@ -20,11 +23,14 @@ const STEPS: [f64; 4] = [8e-3, 4e-3, 2e-3, 1e-3];
 /// The crank has passed its fastest turn.
 const T_END: f64 = 1.4;
 
-fn trajectory(coupling: &str, h: f64) -> Trajectory {
+fn scene(coupling: &str, h: f64) -> Scene {
     let coupling = format!("method={coupling} macro_step={h}");
     let t_end = format!("scene.t_end={T_END}");
-    let scene = with_settings(SCENE, &coupling, &[SOLVER, &t_end]);
-    run(&scene, Place::InProcess)
+    with_settings(SCENE, &coupling, &[SOLVER, &t_end])
+}
+
+fn trajectory(coupling: &str, h: f64) -> Trajectory {
+    run(&scene(coupling, h), Place::InProcess)
 }
 
 /// Relative errors (rms) of the angles, the energy, and the multiplier.
@@ -174,5 +180,41 @@ fn both_forms_of_the_load_agree_to_the_order_of_the_method() {
         let slope = slope_of(STEPS.into_iter().zip(differences));
         println!("{coupling}: {slope:.2} {differences:?}");
         assert!(slope > order - 0.15, "{coupling}: {slope} {differences:?}");
+    }
+}
+
+#[test]
+fn tuned_springs_reach_their_errors() {
+    for tuned in SLIDER_CRANK {
+        let [angles, ..] = errors(&trajectory(&tuned.coupling(), tuned.macro_step));
+        assert!(
+            (angles / tuned.error - 1.0).abs() < 0.05,
+            "{angles:e} {tuned:?}"
+        );
+    }
+}
+
+/// What penalty coupling can reach if stiffness and damping are tuned with the solution known.
+#[test]
+#[ignore = "prints a table"]
+fn best_springs() {
+    for h in [1e-2_f64, 1e-3] {
+        for degree in 0..=1 {
+            let best = tune([-2.0 * h.log10(), -h.log10()], 2, |values| {
+                penalty_error("jacobi", degree, values, h)
+            });
+            println!("H = {h:e} k = {degree}: {best:?}");
+        }
+    }
+}
+
+/// Error of the angles; infinite if the run diverges.
+fn penalty_error(order: &str, degree: usize, [stiffness, damping]: [f64; 2], h: f64) -> f64 {
+    let springs =
+        format!("order={order} degree={degree} stiffness={stiffness:e} damping={damping:e}");
+    let scene = scene(&format!("penalty {springs}"), h);
+    match try_run(&scene, Place::InProcess, &Options::default()) {
+        Ok(trajectory) => errors(&trajectory)[0],
+        Err(_) => f64::INFINITY,
     }
 }

@@ -259,6 +259,15 @@ fn a_scene_without_a_map_says_why() {
         refused(&springs),
         ProbeError::RemembersMotion { degree: 2 }
     ));
+    let sequence = [
+        ("coupling.method", "penalty"),
+        ("coupling.order", "gauss-seidel"),
+        ("coupling.stiffness", "3e5"),
+    ];
+    assert!(matches!(
+        refused(&sequence),
+        ProbeError::RemembersOutputs { degree: 2 }
+    ));
     let unknown = refused(&[("subsystem.mass1.parameters.m", "-1")]);
     assert!(matches!(unknown, ProbeError::Run(_)), "{unknown}");
 }

@@ -51,10 +51,7 @@ impl InitialState {
         let layout = &parts.layout;
         let given = given_multipliers(scene, layout)?;
         let mut state = Self::read(scene, layout, parts, given.as_deref())?;
-        if !accept_open_joints {
-            let outputs = evaluate_all(layout, parts, scene.t_start, &state)?;
-            closed::check(scene, layout, &outputs)?;
-        }
+        state.check_closed(scene, parts, accept_open_joints)?;
         match given {
             Some(_) if scene.connections.is_empty() => {}
             Some(_) => state.settle(scene, layout, parts, Multipliers::Held)?,
@@ -65,6 +62,33 @@ impl InitialState {
             }
         }
         Ok(state)
+    }
+
+    /// Exchanged variables as the subsystems show them without loads of joints; connected signals meet `w - y(w) = 0`.
+    pub(super) fn unloaded(
+        scene: &Scene,
+        parts: &Parts,
+        accept_open_joints: bool,
+    ) -> Result<Self, RunError> {
+        let mut state = Self::read(scene, &parts.layout, parts, None)?;
+        state.check_closed(scene, parts, accept_open_joints)?;
+        if !scene.connections.is_empty() {
+            state.settle(scene, &parts.layout, parts, Multipliers::Held)?;
+        }
+        Ok(state)
+    }
+
+    fn check_closed(
+        &self,
+        scene: &Scene,
+        parts: &Parts,
+        accept_open: bool,
+    ) -> Result<(), RunError> {
+        if accept_open {
+            return Ok(());
+        }
+        let outputs = evaluate_all(&parts.layout, parts, scene.t_start, self)?;
+        closed::check(scene, &parts.layout, &outputs)
     }
 
     /// Exchanged variables as the subsystems show them under these multipliers, 0 if none are given. Positions do not

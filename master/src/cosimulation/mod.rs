@@ -7,6 +7,7 @@ mod geometry;
 mod initial;
 mod mechanism;
 mod panels;
+mod penalty;
 mod refusal;
 mod signal_loop;
 mod start;
@@ -27,6 +28,7 @@ use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::Layout;
 use crate::coupling::penalty::Penalty;
+use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics, Verdict};
 use crate::scene::Scene;
@@ -60,7 +62,8 @@ pub struct Parts {
 pub(crate) enum Scheme {
     Corrected(Box<dyn Corrector>),
     Explicit(Box<Explicit>),
-    Penalty(Penalty),
+    Penalty(Box<Penalty>),
+    Springs(Springs),
 }
 
 /// What a method reports of a macro step.
@@ -88,6 +91,7 @@ impl CoSimulation {
             }
             Scheme::Explicit(method) => method.macro_step(&mut self.parts, step)?,
             Scheme::Penalty(method) => method.macro_step(&mut self.parts, step)?,
+            Scheme::Springs(method) => method.macro_step(&mut self.parts, step)?,
         };
         self.row
             .read(step.end, &self.parts, self.scheme.multipliers());
@@ -217,6 +221,7 @@ impl Scheme {
             Self::Corrected(method) => method.multipliers(),
             Self::Explicit(method) => method.multipliers(),
             Self::Penalty(method) => method.multipliers(),
+            Self::Springs(method) => method.multipliers(),
         }
     }
 }

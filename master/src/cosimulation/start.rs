@@ -1,27 +1,29 @@
 //! From a scene to a co-simulation at its first macro point.
 
 use linchpin_proto::v1::{self, value::Kind};
+use nalgebra::UnitQuaternion;
 
 use super::degrees::{check_degrees, load_forms};
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
-use super::panels;
 use super::refusal::{Refusals, refuse_setup};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
 use super::{CoSimulation, Parts, Scheme, Subsystem, exchange, velocities};
+use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
 use crate::coupling::hermite::Hermite;
 use crate::coupling::layout::{Coupled, Layout, MarkedJoint, springs_at};
-use crate::coupling::penalty::{Order, Penalty};
+use crate::coupling::penalty::{Penalty, write_loads};
 use crate::coupling::semi_implicit::SemiImplicit;
+use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Method, Scene};
+use crate::scene::{self, Method, Order, Scene};
 use crate::signal::{History, Variables};
 use crate::time::{MacroGrid, MacroStep};
 
@@ -83,15 +85,7 @@ impl CoSimulation {
         let mut parts = Parts { subsystems, layout };
         let free_velocities =
             velocities::choose(scene, &coupled, &models, &mut requests, &mut parts)?;
-        let is_spring = matches!(
-            scene.coupling.method,
-            Method::Jacobi { .. } | Method::GaussSeidel { .. }
-        );
-        let initial = if is_spring || options.established.is_some() {
-            InitialState::at_rest(3 * parts.layout.rows.len())
-        } else {
-            InitialState::find(scene, &coupled, &parts, options.accept_open_joints)?
-        };
+        let initial = initial_state(scene, &coupled, &parts, options)?;
         initial.read_outputs(scene.t_start, &mut parts)?;
         let grid = MacroGrid::new(scene.t_start, scene.t_end, scene.coupling.macro_step);
         let scheme = begin(scene, options, initial, &mut parts, &grid)?;
@@ -103,7 +97,7 @@ impl CoSimulation {
             .then(|| Mechanism::new(scene, &models, &joints, row.columns()));
         let guard = match &scheme {
             _ if options.watch_nothing => Guard::off(),
-            Scheme::Penalty(_) => Guard::of_springs(),
+            Scheme::Penalty(_) | Scheme::Springs(_) => Guard::of_springs(),
             _ => Guard::of_rigid_joints(),
         };
         let mut statistics = Statistics::new(&parts.layout);
@@ -166,6 +160,23 @@ fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
         _ => Layout::new(coupled, level_of(method)),
     };
     layout.map_err(|lacks| refuse_marker(scene, lacks))
+}
+
+fn initial_state(
+    scene: &Scene,
+    coupled: &Coupled<'_>,
+    parts: &Parts,
+    options: &Options,
+) -> Result<InitialState, RunError> {
+    let accepts_open = options.accept_open_joints;
+    match scene.coupling.method {
+        Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
+            Ok(InitialState::at_rest(3 * parts.layout.rows.len()))
+        }
+        _ if options.established.is_some() => Ok(InitialState::at_rest(parts.layout.variables())),
+        Method::Penalty { .. } => InitialState::unloaded(scene, parts, accepts_open),
+        _ => InitialState::find(scene, coupled, parts, accepts_open),
+    }
 }
 
 /// A signal and the load of a joint at one input are one polynomial, so they must have one degree.
@@ -271,7 +282,7 @@ fn begin(
 ) -> Result<Scheme, RunError> {
     let coupling = &scene.coupling;
     let InitialState {
-        variables: values,
+        variables: mut values,
         attitudes,
     } = initial;
     let variables = parts
@@ -300,25 +311,34 @@ fn begin(
             method.begin(parts, first_step(grid))?;
             return Ok(Scheme::Explicit(Box::new(method)));
         }
+        Method::Penalty {
+            order,
+            lengths,
+            angles,
+        } => {
+            let springs = penalty::springs_of(scene, lengths, angles, &parts.layout)?;
+            write_loads(&springs, parts, &mut values);
+            let history = history_of(scene, options, variables, &values, attitudes);
+            let degree = coupling.exchanged_degree;
+            let method = Penalty::new(order, springs, history, degree, parts);
+            return Ok(Scheme::Penalty(Box::new(method)));
+        }
         Method::Jacobi { stiffness, damping } => {
             let order = Order::Jacobi;
             let degree = coupling.degree;
-            return Ok(Scheme::Penalty(Penalty::new(
+            return Ok(Scheme::Springs(Springs::new(
                 order, stiffness, damping, degree, parts,
             )));
         }
         Method::GaussSeidel { stiffness, damping } => {
             let order = Order::GaussSeidel;
             let degree = coupling.degree;
-            return Ok(Scheme::Penalty(Penalty::new(
+            return Ok(Scheme::Springs(Springs::new(
                 order, stiffness, damping, degree, parts,
             )));
         }
     };
-    let history = match &options.established {
-        Some(values) => History::established(variables, coupling.macro_step, values, attitudes),
-        None => History::new(variables, &values, attitudes),
-    };
+    let history = history_of(scene, options, variables, &values, attitudes);
     let method = SemiImplicit::new(condition, coupling.increment, history, parts);
     look_ahead(Box::new(method), parts, first_step(grid))
 }
@@ -332,6 +352,21 @@ fn look_ahead(
     method.request_prediction(parts, first, true)?;
     exchange(&mut parts.subsystems, first)?;
     Ok(Scheme::Corrected(method))
+}
+
+/// The coupling variables up to the first macro point, where they have these `values` unless a study gives them.
+fn history_of(
+    scene: &Scene,
+    options: &Options,
+    variables: Variables,
+    values: &[f64],
+    attitudes: Vec<UnitQuaternion<f64>>,
+) -> History {
+    let step = scene.coupling.macro_step;
+    match &options.established {
+        Some(established) => History::established(variables, step, established, attitudes),
+        None => History::new(variables, values, attitudes),
+    }
 }
 
 /// The scene has checked that the time span is at least one step long.

@@ -72,7 +72,9 @@ pub fn level_of(method: &Method) -> Level {
         },
         Method::Hermite { variant } => variant.level(),
         Method::Explicit { .. } => Level::Acceleration,
-        Method::Jacobi { .. } | Method::GaussSeidel { .. } => Level::Velocity,
+        Method::Penalty { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
+            Level::Velocity
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 //! * [`columns`]: increments and finite differences;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
 //! * [`promise`]: what a correction promises, and what the workers make of it;
-//! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`]: one macro step of each family of methods.
+//! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
 
 pub mod columns;
 pub mod condition;
@@ -21,5 +21,6 @@ pub mod penalty;
 pub mod promise;
 pub mod semi_implicit;
 pub mod solve;
+pub mod springs;
 pub mod system;
 pub mod unknowns;

@@ -1,189 +1,211 @@
-//! Force/displacement coupling by a penalty spring-damper, explicit: what common co-simulation masters do today.
+//! Force/force coupling by penalty spring-dampers, explicit: what common co-simulation masters do today.
 //!
-//! The rigid joint is replaced by a stiff spring and damper inside the subsystem at end a; it gets the motion of end b,
-//! and end b gets the force `lambda = K g + D g'`. The variables are extrapolated through their past values. Jacobi: all
-//! subsystems at once. Gauss-Seidel: one after the other in the order of the scene, later ones with interpolated
-//! values of those before them.
+//! A spring and a damper stand in place of every condition `g` of a joint. At each macro point the multiplier is their load,
+//! `lambda = -s (K g + D g')`, with `s` the [`load_power`](crate::joint::Condition::load_power) of the condition, so that a
+//! condition that is open is pulled shut; exchanged variables are what the outputs show, `w = y`. All are extrapolated
+//! over the next step through their past values, and no step is repeated.
+//!
+//! Jacobi: all subsystems step at once. Gauss-Seidel: one after the other in the order of the scene; the end values of
+//! the coupling variables follow from the outputs of those that have stepped and the extrapolated outputs of the others,
+//! and the inputs are interpolated through them.
+
+use std::ops::Range;
 
 use super::condition::check_finite;
-use super::layout::DrivenInput;
-use super::layout::input::Source;
+use super::layout::{Layout, Over, Row};
 use super::system::motion_of;
 use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
-use crate::joint::{Level, Motion};
+use crate::joint::Level;
 use crate::results::Verdict;
-use crate::signal::{Curve, History, Variables};
+use crate::scene::{Order, Spring};
+use crate::signal::{Curve, History, Lagrange, Variables};
 use crate::time::MacroStep;
-
-use linchpin_proto::v1::Signal;
-
-/// In which order the subsystems step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Order {
-    /// All at once.
-    Jacobi,
-    /// One after the other.
-    GaussSeidel,
-}
 
 /// State of a penalty coupling between two macro steps.
 pub struct Penalty {
-    order: Order,
-    stiffness: f64,
-    damping: f64,
+    springs: Vec<Spring>,
     history: History,
-    values: Vec<f64>,
+    /// Coupling variables at the end of the step, as far as they are known.
+    ends: Vec<f64>,
+    memory: Vec<f64>,
+    sequence: Option<Sequence>,
+}
+
+/// What one subsystem after the other needs: the coupling outputs of all subsystems, one behind the other.
+struct Sequence {
+    outputs: History,
+    /// At the end of the step: extrapolated until the subsystem has stepped.
+    ends: Vec<f64>,
+    places: Vec<Range<usize>>,
 }
 
 impl Penalty {
-    /// Springs of `stiffness` (N/m) and dampers of `damping` (N s/m), polynomials of degree `degree`; the outputs of
-    /// the first macro point are known.
-    pub fn new(order: Order, stiffness: f64, damping: f64, degree: usize, parts: &Parts) -> Self {
-        let mut method = Self {
-            order,
-            stiffness,
-            damping,
-            history: History::new(Variables::default(), &[], Vec::new()),
-            values: vec![0.0; 3 * parts.layout.rows.len()],
-        };
-        method.read_variables(parts);
-        let variables = Variables {
-            degrees: vec![degree; method.values.len()],
-            rotations: Vec::new(),
-        };
-        method.history = History::new(variables, &method.values, Vec::new());
-        method
+    /// One spring for each row; `history` holds the coupling variables up to the first macro point, where the outputs are known.
+    /// With Gauss-Seidel the outputs are extrapolated with `output_degree`.
+    pub fn new(
+        order: Order,
+        springs: Vec<Spring>,
+        history: History,
+        output_degree: usize,
+        parts: &Parts,
+    ) -> Self {
+        let size = parts.layout.variables();
+        Self {
+            springs,
+            history,
+            ends: vec![0.0; size],
+            memory: vec![0.0; size],
+            sequence: match order {
+                Order::Jacobi => None,
+                Order::GaussSeidel => Some(Sequence::new(output_degree, parts)),
+            },
+        }
     }
 
-    /// Forces of the springs at the present macro point, one for each joint.
+    /// Loads of the springs at the present macro point, one for each row.
     pub fn multipliers(&self) -> &[f64] {
-        let newest = self.history.newest();
-        &newest[..newest.len() / 3]
+        &self.history.newest()[..self.springs.len()]
     }
 
     /// One macro step.
     pub fn macro_step(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Outcome, RunError> {
         parts.prepare_advance(step);
-        match self.order {
-            Order::Jacobi => self.all_at_once(parts, step)?,
-            Order::GaussSeidel => self.one_after_the_other(parts, step)?,
+        match self.sequence {
+            None => self.all_at_once(parts, step)?,
+            Some(_) => self.one_after_the_other(parts, step)?,
         }
-        self.read_variables(parts);
-        self.history.push(step.length, &self.values);
-        check_finite(self.multipliers(), parts, step)?;
+        check_finite(&self.ends, parts, step)?;
+        self.history.push(step.length, &self.ends);
+        if let Some(sequence) = &mut self.sequence {
+            sequence.outputs.push(step.length, &sequence.ends);
+        }
         Ok(Outcome {
             verdict: Verdict::Uncorrected,
             solving: 0.0,
         })
     }
 
-    fn all_at_once(&self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
-        for input in &parts.layout.inputs {
-            let signal = parts.subsystems[input.subsystem].advance_signal(input.place);
-            self.send(input, Curve::Extrapolated, step, signal);
+    fn all_at_once(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
+        for number in 0..parts.subsystems.len() {
+            self.request_advance(parts, number, step);
         }
-        exchange(&mut parts.subsystems, step)
+        exchange(&mut parts.subsystems, step)?;
+        let subsystems = &parts.subsystems;
+        let outputs = |subsystem: usize| subsystems[subsystem].coupling_values();
+        self.take(&parts.layout, outputs, |_| true);
+        Ok(())
     }
 
-    fn one_after_the_other(&self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
+    fn one_after_the_other(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
+        extrapolate(&self.history, step, &mut self.ends);
+        if let Some(sequence) = &mut self.sequence {
+            extrapolate(&sequence.outputs, step, &mut sequence.ends);
+        }
         for number in 0..parts.subsystems.len() {
-            for input in parts.layout.inputs_of(number) {
-                let end = self.end_value(input, parts, number, step);
-                let signal = parts.subsystems[number].advance_signal(input.place);
-                match end {
-                    Some(end) => {
-                        self.send(input, Curve::Interpolated(&self.values), step, signal);
-                        signal.values[0] = end;
-                    }
-                    None => self.send(input, Curve::Extrapolated, step, signal),
-                }
-            }
+            self.request_advance(parts, number, step);
             exchange(&mut parts.subsystems[number..=number], step)?;
+            let Some(mut sequence) = self.sequence.take() else {
+                return Ok(());
+            };
+            let own = sequence.places[number].clone();
+            sequence.ends[own].copy_from_slice(parts.subsystems[number].coupling_values());
+            let outputs = |subsystem: usize| &sequence.ends[sequence.places[subsystem].clone()];
+            self.take(&parts.layout, outputs, |subsystem| subsystem == number);
+            self.sequence = Some(sequence);
         }
         Ok(())
     }
 
-    fn send(&self, input: &DrivenInput, curve: Curve<'_>, step: MacroStep, signal: &mut Signal) {
-        if let Source::Sum(combination) = &input.source {
-            self.history.signal(combination, curve, step.length, signal);
-        }
-    }
-
-    /// Value of a variable at the end of the step, extrapolated.
-    fn extrapolated(&self, variable: usize, step: MacroStep) -> f64 {
-        self.history
-            .value(variable, Curve::Extrapolated, step.length, step.length)
-    }
-
-    /// Value of an input at the end of the step, if a subsystem before `number` has determined part of it.
-    fn end_value(
-        &self,
-        input: &DrivenInput,
-        parts: &Parts,
-        number: usize,
-        step: MacroStep,
-    ) -> Option<f64> {
-        let mut is_known = false;
-        let mut sum = 0.0;
-        let Source::Sum(combination) = &input.source else {
-            return None;
+    /// Fills in the advance of one subsystem. Through an end value that is extrapolated itself, the interpolation is the
+    /// extrapolation.
+    fn request_advance(&mut self, parts: &mut Parts, number: usize, step: MacroStep) {
+        let mut over = Over {
+            curves: &Lagrange {
+                history: &self.history,
+                curve: match self.sequence {
+                    None => Curve::Extrapolated,
+                    Some(_) => Curve::Interpolated(&self.ends),
+                },
+                length: step.length,
+            },
+            memory: &mut self.memory,
         };
-        for &(variable, factor) in combination {
-            let known = self.known_variable(variable, parts, number, step);
-            is_known |= known.is_some();
-            let value = known.unwrap_or_else(|| self.extrapolated(variable, step));
-            sum += factor * value;
+        let subsystem = &mut parts.subsystems[number];
+        for input in parts.layout.inputs_of(number) {
+            input.signal(&mut over, subsystem.advance_signal(input.place));
         }
-        is_known.then_some(sum)
     }
 
-    fn known_variable(
-        &self,
-        variable: usize,
-        parts: &Parts,
-        number: usize,
-        step: MacroStep,
-    ) -> Option<f64> {
-        let rows = parts.layout.rows.len();
-        let row = variable % rows;
-        let ends = &parts.layout.joint_of(row).ends;
-        let [a, b] = ends.each_ref().map(|end| end.subsystem);
-        let mut motion = self.motion(parts, row);
-        match variable / rows {
-            0 if a < number => {
-                // End b, which takes this force, has not stepped: the spring has seen its extrapolated motion.
-                motion[1].pose.position.x = self.extrapolated(rows + row, step);
-                motion[1].velocity.x = self.extrapolated(2 * rows + row, step);
-                Some(self.force(parts, row, &motion))
+    /// Takes over the end values of the coupling variables that depend on a subsystem that is `new`.
+    fn take<'a>(
+        &mut self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64] + Copy,
+        is_new: impl Fn(usize) -> bool,
+    ) {
+        for (row, spring) in self.springs.iter().enumerate() {
+            let ends = &layout.joint_of(row).ends;
+            if ends.iter().any(|end| is_new(end.subsystem)) {
+                self.ends[row] = spring_load(layout, row, spring, outputs);
             }
-            1 if b < number => Some(motion[1].pose.position.x),
-            2 if b < number => Some(motion[1].velocity.x),
-            _ => None,
+        }
+        let history = &self.history;
+        for exchanged in layout.exchanged.iter().filter(|one| is_new(one.subsystem)) {
+            let own = outputs(exchanged.subsystem);
+            let value = exchanged.read(own, history.attitudes(), history.newest());
+            let places = exchanged.first..exchanged.first + exchanged.size();
+            self.ends[places].copy_from_slice(&value.as_slice()[..exchanged.size()]);
         }
     }
+}
 
-    fn read_variables(&mut self, parts: &Parts) {
-        let rows = parts.layout.rows.len();
-        for row in 0..rows {
-            let motion = self.motion(parts, row);
-            self.values[row] = self.force(parts, row, &motion);
-            self.values[rows + row] = motion[1].pose.position.x;
-            self.values[2 * rows + row] = motion[1].velocity.x;
+impl Sequence {
+    fn new(degree: usize, parts: &Parts) -> Self {
+        let mut newest = Vec::new();
+        let places = parts.subsystems.iter().map(|subsystem| {
+            let start = newest.len();
+            newest.extend_from_slice(subsystem.coupling_values());
+            start..newest.len()
+        });
+        let places = places.collect();
+        let variables = Variables {
+            degrees: vec![degree; newest.len()],
+            rotations: Vec::new(),
+        };
+        Self {
+            outputs: History::new(variables, &newest, Vec::new()),
+            ends: newest,
+            places,
         }
     }
+}
 
-    fn motion(&self, parts: &Parts, row: usize) -> Motion {
-        let joint = parts.layout.rows[row].joint;
-        motion_of(&parts.layout, joint, |s| {
-            parts.subsystems[s].coupling_values()
-        })
+/// Writes the loads of the springs under the present outputs, one for each row, in front of `values`.
+pub fn write_loads(springs: &[Spring], parts: &Parts, values: &mut [f64]) {
+    let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+    for (row, (spring, value)) in springs.iter().zip(values).enumerate() {
+        *value = spring_load(&parts.layout, row, spring, outputs);
     }
+}
 
-    fn force(&self, parts: &Parts, row: usize, motion: &Motion) -> f64 {
-        let condition = parts.layout.rows[row].condition;
-        let condition = parts.layout.joint_of(row).joint.condition(condition);
-        self.stiffness * condition.value(Level::Position, motion)
-            + self.damping * condition.value(Level::Velocity, motion)
+/// Load of the spring in place of a row: `-s (K g + D g')`.
+fn spring_load<'a>(
+    layout: &Layout,
+    row: usize,
+    spring: &Spring,
+    outputs: impl Fn(usize) -> &'a [f64],
+) -> f64 {
+    let Row { joint, condition } = layout.rows[row];
+    let motion = motion_of(layout, joint, outputs);
+    let condition = layout.joints[joint].joint.condition(condition);
+    let [g, rate, _] = condition.values(Level::Velocity, &motion);
+    -condition.load_power() * (spring.stiffness * g + spring.damping * rate)
+}
+
+/// All variables of `history` at the end of the step.
+fn extrapolate(history: &History, step: MacroStep, ends: &mut [f64]) {
+    for (variable, end) in ends.iter_mut().enumerate() {
+        *end = history.value(variable, Curve::Extrapolated, step.length, step.length);
     }
 }

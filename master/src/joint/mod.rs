@@ -133,6 +133,15 @@ pub trait Condition: Send + Sync {
         sizes.fold(LEAST_MOTION, f64::max)
     }
 
+    /// Power of the load of a multiplier 1 on both ends per unit of `g'`: 1 for the laws, -1 for the link between scalar
+    /// markers. A spring of stiffness K in place of the multiplier, `-(this) K g`, therefore stores the energy `K g^2 / 2`.
+    fn load_power(&self) -> f64 {
+        match self.law() {
+            Some(_) => 1.0,
+            None => -1.0,
+        }
+    }
+
     /// Whether `g` is a length (m); otherwise it is a number.
     fn is_length(&self) -> bool {
         let law = self.law().map(|law| law.law);

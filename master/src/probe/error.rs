@@ -48,6 +48,15 @@ pub enum ProbeError {
         /// Degree of the polynomials.
         degree: usize,
     },
+    /// The method remembers outputs that the probe cannot set.
+    #[error(
+        "penalty coupling of order gauss-seidel extrapolates outputs with degree {degree}, so it remembers earlier ones, which \
+         cannot be set; its macro-step map can be had for coupling.exchanged_degree = 0 or coupling.order = \"jacobi\""
+    )]
+    RemembersOutputs {
+        /// Degree of the polynomials.
+        degree: usize,
+    },
     /// An output that a model calls a state did not come back.
     #[error(
         "{column} is a state of its model but was not answered; the worker does not keep to the contract linchpin.v1"

@@ -4,7 +4,7 @@ use super::error_kind::{Names, SceneErrorKind};
 use super::formula::{Formula, Unit};
 use super::index::Weights;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
-use super::resolved::{Coupling, Increment, Loads, Method, Variant};
+use super::resolved::{Coupling, Increment, Loads, Method, Order, Spring, Variant};
 use super::written::Value;
 
 /// The key whose override changes which other keys there are.
@@ -38,21 +38,29 @@ const VARIANTS: [(&str, Variant); 5] = [
     ("c0pva", Variant::C0pva),
 ];
 
+/// In which order subsystems step.
+const ORDERS: [(&str, Order); 2] = [
+    ("jacobi", Order::Jacobi),
+    ("gauss-seidel", Order::GaussSeidel),
+];
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     Baumgarte,
     Weighted,
     Hermite,
     Explicit,
+    Penalty,
     Jacobi,
     GaussSeidel,
 }
 
-const METHODS: [(&str, Kind); 6] = [
+const METHODS: [(&str, Kind); 7] = [
     ("hermite", Kind::Hermite),
     ("baumgarte", Kind::Baumgarte),
     ("weighted", Kind::Weighted),
     ("explicit", Kind::Explicit),
+    ("penalty", Kind::Penalty),
     ("jacobi", Kind::Jacobi),
     ("gauss-seidel", Kind::GaussSeidel),
 ];
@@ -64,6 +72,14 @@ impl Kind {
             Self::Weighted => &["degree", "index", "a", "b"],
             Self::Hermite => &["variant"],
             Self::Explicit => &["degree", "mu"],
+            Self::Penalty => &[
+                "degree",
+                "order",
+                "stiffness",
+                "damping",
+                "angular_stiffness",
+                "angular_damping",
+            ],
             Self::Jacobi | Self::GaussSeidel => &["degree", "stiffness", "damping"],
         }
     }
@@ -74,6 +90,7 @@ impl Kind {
             Self::Weighted => "weighted",
             Self::Hermite => "hermite",
             Self::Explicit => "explicit",
+            Self::Penalty => "penalty",
             Self::Jacobi => "jacobi",
             Self::GaussSeidel => "gauss-seidel",
         }
@@ -259,23 +276,66 @@ fn read_method(
                 .map_err(|kind| field.report(kind, problems));
             Some(Method::Explicit { mu: mu.ok()? })
         }
+        Kind::Penalty => read_penalty(section, problems),
         Kind::Jacobi => {
-            let (stiffness, damping) = read_spring(section, problems)?;
+            let Spring { stiffness, damping } = read_spring(section, LINEAR, problems)?;
             Some(Method::Jacobi { stiffness, damping })
         }
         Kind::GaussSeidel => {
-            let (stiffness, damping) = read_spring(section, problems)?;
+            let Spring { stiffness, damping } = read_spring(section, LINEAR, problems)?;
             Some(Method::GaussSeidel { stiffness, damping })
         }
     }
 }
 
-fn read_spring(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<(f64, f64)> {
+/// Springs for lengths and for angles. At least one is needed; which one the joints need is known when the models have
+/// described their markers.
+fn read_penalty(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Method> {
+    let order = section
+        .get("order")
+        .map_or(Some(Order::Jacobi), |field| field.choice(&ORDERS, problems));
+    let has = |(stiffness, _, damping): SpringKeys| {
+        section.get(stiffness).is_some() || section.get(damping).is_some()
+    };
+    let angles = match has(ANGULAR) {
+        true => read_spring(section, ANGULAR, problems).map(Some),
+        false => Some(None),
+    };
+    let lengths = match has(LINEAR) || !has(ANGULAR) {
+        true => read_spring(section, LINEAR, problems).map(Some),
+        false => Some(None),
+    };
+    Some(Method::Penalty {
+        order: order?,
+        lengths: lengths?,
+        angles: angles?,
+    })
+}
+
+/// The keys of a spring: stiffness with an example, damping.
+type SpringKeys = (&'static str, &'static str, &'static str);
+
+const LINEAR: SpringKeys = ("stiffness", "stiffness = 1e6", "damping");
+
+const ANGULAR: SpringKeys = (
+    "angular_stiffness",
+    "angular_stiffness = 1e4",
+    "angular_damping",
+);
+
+fn read_spring(
+    section: &Section<'_>,
+    (stiffness, example, damping): SpringKeys,
+    problems: &mut Problems<'_>,
+) -> Option<Spring> {
     let stiffness = section
-        .require("stiffness", "stiffness = 1e6", problems)
+        .require(stiffness, example, problems)
         .and_then(|field| field.number(&POSITIVE, problems));
     let damping = section
-        .get("damping")
+        .get(damping)
         .map_or(Some(0.0), |field| field.number(&NOT_NEGATIVE, problems));
-    Some((stiffness?, damping?))
+    Some(Spring {
+        stiffness: stiffness?,
+        damping: damping?,
+    })
 }

@@ -39,7 +39,7 @@ pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index, Joint,
-    JointKind, Loads, Method, Output, Panel, Reference, RunSettings, Served, Side,
+    JointKind, Loads, Method, Order, Output, Panel, Reference, RunSettings, Served, Side, Spring,
     StabilitySettings, Subsystem, Variant,
 };
 pub use stability_rules::{Warning, warnings};

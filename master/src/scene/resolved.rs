@@ -74,6 +74,15 @@ pub enum Method {
         /// Time constant in s, greater than 0.
         mu: f64,
     },
+    /// Force of a spring and damper in place of the multiplier, on both ends.
+    Penalty {
+        /// Which subsystems know what others have reached; default Jacobi.
+        order: Order,
+        /// For conditions that are lengths.
+        lengths: Option<Spring>,
+        /// For conditions that are angles.
+        angles: Option<Spring>,
+    },
     /// Spring and damper in place of the joint, all subsystems at once.
     Jacobi {
         /// Stiffness in N/m, greater than 0.
@@ -104,6 +113,25 @@ pub enum Variant {
     C0v,
     /// Continuous at `T_N`; g = 0, g' = 0, g'' = 0 at `T_{N+1}`: cubic.
     C0pva,
+}
+
+/// In which order the subsystems step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// All at once, from extrapolated inputs.
+    Jacobi,
+    /// One after the other as the scene lists them; later ones know what earlier ones have reached.
+    GaussSeidel,
+}
+
+/// A spring and a damper in place of one condition `g` of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spring {
+    /// Load per unit of `g`, greater than 0: N/m, for angles N m.
+    pub stiffness: f64,
+    /// Load per unit of `g'`, 0 or greater; default 0: N s/m, for angles N m s.
+    pub damping: f64,
 }
 
 /// Index of the coupled system: which derivatives of the constraint are demanded.

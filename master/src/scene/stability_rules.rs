@@ -78,7 +78,13 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let coupling = &scene.coupling;
     let warning = match (coupling.method, coupling.degree.checked_sub(1)) {
         (Method::Explicit { mu }, _) => below_limit_of_mu(coupling.macro_step, mu),
-        (Method::Hermite { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. }, _)
+        (
+            Method::Hermite { .. }
+            | Method::Penalty { .. }
+            | Method::Jacobi { .. }
+            | Method::GaussSeidel { .. },
+            _,
+        )
         | (_, None) => None,
         (method, Some(above_constant)) => RULES
             .get(above_constant)
@@ -110,6 +116,7 @@ fn below_limit(coupling: &Coupling, method: Method, rule: &Rule) -> Option<Warni
         }
         Method::Hermite { .. }
         | Method::Explicit { .. }
+        | Method::Penalty { .. }
         | Method::Jacobi { .. }
         | Method::GaussSeidel { .. } => None,
     }

@@ -175,6 +175,15 @@ impl Pair {
         }
     }
 
+    /// Kinetic energy at every recorded macro point (J).
+    pub fn energies(&self, trajectory: &Trajectory) -> Vec<f64> {
+        let [inner, outer] = ["inner", "outer"].map(|body| motions(trajectory, body));
+        let pairs = inner.iter().zip(&outer);
+        pairs
+            .map(|(inner, outer)| self.sums([inner, outer]).energy)
+            .collect()
+    }
+
     fn sums(&self, motions: [&BodyMotion; 2]) -> Sums {
         let mut sums = Sums::default();
         for (jointed, motion) in self.chain.bodies.iter().zip(motions) {

@@ -158,6 +158,25 @@ fn index_and_method_make_no_difference() {
     }
 }
 
+/// Signals are extrapolated; in the first step they are held, which leaves an error of order 2 in the states.
+#[test]
+fn penalty_coupling_extrapolates_signals() {
+    let cases = [
+        ("method=penalty stiffness=1 exchanged_degree=0", [1.0]),
+        ("method=penalty stiffness=1 exchanged_degree=1", [2.0]),
+        ("method=penalty stiffness=1 exchanged_degree=2", [2.0]),
+        (
+            "method=penalty order=gauss-seidel stiffness=1 exchanged_degree=2",
+            [2.0],
+        ),
+    ];
+    assert_all_orders(&cases, &[2e-3, 1e-3, 5e-4, 2.5e-4], |coupling, h| {
+        let scene = scene(&format!("{coupling} macro_step={h}"));
+        let [states, _] = errors(&run(&scene, Place::InProcess));
+        [states]
+    });
+}
+
 /// The explicit method holds the signals over every step.
 #[test]
 fn the_explicit_method_has_order_one() {

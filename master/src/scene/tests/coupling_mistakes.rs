@@ -12,11 +12,11 @@ fn assert_coupling_mistake(settings: &str, at: &str, words: &[&str]) {
 
 #[test]
 fn an_unknown_method_is_told_with_all_methods() {
-    let all = ["hermite, baumgarte, weighted, explicit, jacobi, gauss-seidel"];
+    let all = ["hermite, baumgarte, weighted, explicit, penalty, jacobi, gauss-seidel"];
     assert_mistake(
-        &[("\"baumgarte\" ", "\"galerkin\" ")],
+        &[("\"baumgarte\" ", "\"newmark\" ")],
         "method",
-        &[&["\"galerkin\""], &all[..]].concat(),
+        &[&["\"newmark\""], &all[..]].concat(),
     );
     assert_mistake(
         &[("\"baumgarte\" ", "\"Baumgart\" ")],
@@ -64,6 +64,11 @@ fn a_key_of_another_method_is_told_with_its_owner() {
         "method = 'jacobi'\nstiffness = 1\na = 1",
         "a = 1",
         &["belongs to weighted"],
+    );
+    assert_coupling_mistake(
+        "method = 'jacobi'\nstiffness = 1\norder = 'jacobi'",
+        "order",
+        &["belongs to penalty"],
     );
 }
 
@@ -181,6 +186,46 @@ fn parameters_of_a_method_have_ranges_and_forms() {
             "method = 'jacobi'",
             "[coupling]",
             ["lacks `stiffness`", "1e6"],
+        ),
+        (
+            "method = 'penalty'",
+            "[coupling]",
+            ["lacks `stiffness`", "1e6"],
+        ),
+        (
+            "method = 'penalty'\ndamping = 7\nangular_stiffness = 1",
+            "[coupling]",
+            ["lacks `stiffness`", "1e6"],
+        ),
+        (
+            "method = 'penalty'\nstiffness = 1\nangular_damping = 3",
+            "[coupling]",
+            ["lacks `angular_stiffness`", "1e4"],
+        ),
+        (
+            "method = 'penalty'\nstiffness = -3",
+            "stiffness",
+            ["greater than 0", "-3"],
+        ),
+        (
+            "method = 'penalty'\nangular_stiffness = 0",
+            "angular_stiffness",
+            ["greater than 0", "found 0"],
+        ),
+        (
+            "method = 'penalty'\nstiffness = 1\ndamping = -0.5",
+            "damping",
+            ["0 or greater", "-0.5"],
+        ),
+        (
+            "method = 'penalty'\nangular_stiffness = 1\nangular_damping = -0.5",
+            "angular_damping",
+            ["0 or greater", "-0.5"],
+        ),
+        (
+            "method = 'penalty'\nstiffness = 1\norder = 'jacoby'",
+            "order",
+            ["\"jacoby\"", "jacobi"],
         ),
         (
             "method = 'jacobi'\nstiffness = 0",

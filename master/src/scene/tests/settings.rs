@@ -3,7 +3,8 @@
 use linchpin_proto::v1::{self, value::Kind};
 
 use super::super::{
-    Axis, Calls, Increment, Index, JointKind, Method, Reference, RunSettings, Served, Side, load,
+    Axis, Calls, Increment, Index, JointKind, Method, Order, Reference, RunSettings, Served, Side,
+    Spring, load,
 };
 use super::{EXAMPLE, coupled, example, scene};
 
@@ -145,6 +146,32 @@ fn methods_without_an_index_have_their_own_parameters() {
     let gauss_seidel = method("method = 'gauss-seidel'\nstiffness = 3e5");
     let damping = 0.0;
     assert_eq!(gauss_seidel, Method::GaussSeidel { stiffness, damping });
+}
+
+#[test]
+fn a_penalty_has_springs_for_lengths_and_for_angles() {
+    let penalty = |order, lengths, angles| Method::Penalty {
+        order,
+        lengths,
+        angles,
+    };
+    let spring = |stiffness, damping| Some(Spring { stiffness, damping });
+    for (settings, expected) in [
+        (
+            "stiffness = 3e5",
+            penalty(Order::Jacobi, spring(3e5, 0.0), None),
+        ),
+        (
+            "angular_stiffness = 7\nangular_damping = 0.3\norder = 'gauss-seidel'",
+            penalty(Order::GaussSeidel, None, spring(7.0, 0.3)),
+        ),
+        (
+            "order = 'jacobi'\nstiffness = 1\ndamping = 2\nangular_stiffness = 5",
+            penalty(Order::Jacobi, spring(1.0, 2.0), spring(5.0, 0.0)),
+        ),
+    ] {
+        assert_eq!(method(&format!("method = 'penalty'\n{settings}")), expected);
+    }
 }
 
 #[test]
