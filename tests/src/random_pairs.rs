@@ -268,7 +268,7 @@ impl Quotient {
         // Also a shift that is not a number is out of reach.
         let near = eigenvalues
             .iter()
-            .find(|(size, shift)| !(size + shift <= STABLE));
+            .find(|(size, shift)| (size + shift).is_nan() || size + shift > STABLE);
         near.map_or(Verdict::Stable, |(size, shift)| {
             Verdict::OutOfReach(format!("an eigenvalue {size} is known to {shift:e}"))
         })

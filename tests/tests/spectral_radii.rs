@@ -96,6 +96,11 @@ fn tallies() {
         "method=weighted a=2 b=2.6 degree=0",
         "method=weighted a=2 b=2.6 degree=1",
         "method=baumgarte index=3 degree=0",
+        "method=hermite variant=apv",
+        "method=hermite variant=c0pv",
+        "method=hermite variant=av",
+        "method=hermite variant=c0v",
+        "method=hermite variant=c0pva",
     ] {
         let tally = Tally::of(coupling, SEED, 10_000);
         let resolved = tally
