@@ -122,6 +122,29 @@ pub enum RunError {
         /// Factor that was passed.
         growth: f64,
     },
+    /// The corrections of a macro step do not come to an end.
+    #[error(
+        "the corrections do not converge at t = {t} s (H = {step} s): after {passes} passes {unknown} still changes by \
+         {change:.1e} of its size, allowed is {tolerance:e}; each pass leaves {rate:.2e} of the change before; try a smaller \
+         coupling.macro_step, more passes (coupling.iterations.most), a larger coupling.iterations.tolerance, or \
+         coupling.iterations.otherwise = \"warn\""
+    )]
+    NotConverged {
+        /// Start of the macro step.
+        t: f64,
+        /// Its length.
+        step: f64,
+        /// Coupling variable that changes most.
+        unknown: String,
+        /// Its last change relative to its size.
+        change: f64,
+        /// What is allowed.
+        tolerance: f64,
+        /// Number of passes.
+        passes: u32,
+        /// Last change over the one before.
+        rate: f64,
+    },
     /// The coupling conditions do not determine the coupling variables.
     #[error(
         "{unknown} is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \

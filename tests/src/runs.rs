@@ -6,7 +6,7 @@ use linchpin::connect::{Connector, Place};
 use linchpin::simulate::{Recorder, SimulateError, simulate};
 use linchpin_master::RunError;
 use linchpin_master::cosimulation::Options;
-use linchpin_master::results::Row;
+use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 
 /// Time in s after which the multipliers no longer show the first steps.
@@ -21,6 +21,8 @@ pub struct Trajectory {
     pub rows: Vec<Vec<f64>>,
     /// Integrations over a macro step that the run took.
     pub integrations: u64,
+    /// Counts and times of the run.
+    pub statistics: Statistics,
 }
 
 impl Trajectory {
@@ -68,7 +70,10 @@ impl Recorder for Trajectory {
 pub fn try_run(scene: &Scene, place: Place, options: &Options) -> Result<Trajectory, RunError> {
     let mut trajectory = Trajectory::default();
     match simulate(scene, &Connector::new(place), options, &mut trajectory) {
-        Ok(statistics) => trajectory.integrations = statistics.integrations,
+        Ok(statistics) => {
+            trajectory.integrations = statistics.integrations;
+            trajectory.statistics = statistics;
+        }
         Err(SimulateError::Run(error)) => return Err(error),
         Err(SimulateError::Record(never)) => match never {},
     }

@@ -9,6 +9,7 @@ mod mechanism;
 mod panels;
 mod penalty;
 mod refusal;
+mod renewal;
 mod signal_loop;
 mod start;
 mod subsystem;
@@ -30,11 +31,13 @@ use crate::coupling::layout::Layout;
 use crate::coupling::penalty::Penalty;
 use crate::coupling::springs::Springs;
 use crate::error::RunError;
-use crate::results::{Guard, Row, Statistics, Verdict};
+use crate::results::{Cause, Guard, Row, Statistics, Verdict};
 use crate::scene::Scene;
 use crate::time::{MacroGrid, MacroStep};
 
 use refusal::refuse_setup;
+pub use renewal::Passes;
+use renewal::Renewal;
 pub use start::{Connect, Options, describe};
 pub(crate) use subsystem::exchange;
 
@@ -42,6 +45,7 @@ pub(crate) use subsystem::exchange;
 pub struct CoSimulation {
     parts: Parts,
     scheme: Scheme,
+    renewal: Renewal,
     grid: MacroGrid,
     next: usize,
     row: Row,
@@ -72,6 +76,8 @@ pub struct Outcome {
     pub verdict: Verdict,
     /// Time in s that was spent on solving for the multipliers.
     pub solving: f64,
+    /// How the corrections went.
+    pub passes: Passes,
 }
 
 impl CoSimulation {
@@ -87,7 +93,8 @@ impl CoSimulation {
         let started = Instant::now();
         let outcome = match &mut self.scheme {
             Scheme::Corrected(method) => {
-                corrected::macro_step(&mut **method, &mut self.parts, step, following)?
+                let renewal = &mut self.renewal;
+                corrected::macro_step(&mut **method, &mut self.parts, renewal, step, following)?
             }
             Scheme::Explicit(method) => method.macro_step(&mut self.parts, step)?,
             Scheme::Penalty(method) => method.macro_step(&mut self.parts, step)?,
@@ -178,6 +185,9 @@ impl Parts {
     /// reads have nothing to tell. The signals are filled in by the method.
     pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {
         self.prepare_look(Ahead::Step, t, length);
+        for subsystem in &mut self.subsystems {
+            subsystem.looks_ahead_for = Cause::Predictor;
+        }
     }
 
     /// Makes every subsystem's next request evaluate its outputs at `t`, beside a prediction.
@@ -202,6 +212,15 @@ impl Parts {
     pub(crate) fn forgo_evaluation(&mut self) {
         for subsystem in &mut self.subsystems {
             subsystem.request.evaluate = None;
+        }
+    }
+
+    /// Makes every subsystem's next request look ahead over `step` once more, and do nothing else.
+    pub(crate) fn prepare_pass(&mut self, step: MacroStep) {
+        self.prepare_prediction(step.start, step.length);
+        for subsystem in &mut self.subsystems {
+            subsystem.request.advance = None;
+            subsystem.looks_ahead_for = Cause::Pass;
         }
     }
 

@@ -7,6 +7,7 @@ use super::degrees::{check_degrees, load_forms};
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
 use super::refusal::{Refusals, refuse_setup};
+use super::renewal::Renewal;
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
@@ -23,7 +24,7 @@ use crate::coupling::semi_implicit::SemiImplicit;
 use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Method, Order, Scene};
+use crate::scene::{self, Jacobian, Method, Order, Scene};
 use crate::signal::{History, Variables};
 use crate::time::{MacroGrid, MacroStep};
 
@@ -105,6 +106,7 @@ impl CoSimulation {
         Ok(Self {
             parts,
             scheme,
+            renewal: Renewal::new(scene.coupling.jacobian, scene.coupling.iterations),
             grid,
             next: 0,
             row,
@@ -159,7 +161,11 @@ fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
         Method::Hermite { .. } => Layout::with_rates(coupled, level_of(method)),
         _ => Layout::new(coupled, level_of(method)),
     };
-    layout.map_err(|lacks| refuse_marker(scene, lacks))
+    let mut layout = layout.map_err(|lacks| refuse_marker(scene, lacks))?;
+    if method.is_corrected() && scene.coupling.jacobian == Jacobian::Reuse {
+        layout.add_frames(coupled);
+    }
+    Ok(layout)
 }
 
 fn initial_state(

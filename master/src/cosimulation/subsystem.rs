@@ -12,6 +12,7 @@ use linchpin_proto::version::PROTOCOL;
 
 use crate::connection::{Connection, LastWords};
 use crate::error::RunError;
+use crate::results::{Cause, Integrations};
 use crate::time::MacroStep;
 
 /// How far a look-ahead goes.
@@ -43,6 +44,10 @@ pub struct Subsystem {
     pub(crate) tolerance: Option<f64>,
     /// What the solver did so far.
     pub(crate) work: v1::Work,
+    /// What it was asked for so far.
+    pub(crate) asked: Integrations,
+    /// Why it looks ahead in the next exchange.
+    pub(crate) looks_ahead_for: Cause,
     /// Exchanges so far.
     pub(crate) exchanges: u64,
 }
@@ -62,6 +67,8 @@ impl Subsystem {
             outputs: Vec::new(),
             tolerance: None,
             work: v1::Work::default(),
+            asked: Integrations::default(),
+            looks_ahead_for: Cause::Predictor,
             exchanges: 0,
         }
     }
@@ -164,6 +171,7 @@ impl Subsystem {
         let collected = self.connection.collect(&mut self.reply);
         collected.map_err(|error| self.failed(error, step))?;
         self.exchanges += 1;
+        self.asked.count(&self.request, self.looks_ahead_for);
         self.work += self.reply.work.unwrap_or_default();
         self.request.go_back = false;
         self.take_advanced(step)?;

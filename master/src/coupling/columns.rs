@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::carriage::Carriage;
 use super::layout::{Layout, Over};
 use super::unknowns::Unknowns;
 use crate::cosimulation::{Ahead, Parts};
@@ -30,6 +31,7 @@ pub struct Columns {
     of_subsystem: Vec<usize>,
     /// Whether the last look-ahead was asked for columns that were not taken yet.
     are_fresh: bool,
+    carriage: Carriage,
 }
 
 /// A look-ahead: what it is asked for.
@@ -55,6 +57,7 @@ impl Columns {
             of_input: Vec::new(),
             of_subsystem: vec![0; layout.outputs.len()],
             are_fresh: false,
+            carriage: Carriage::new(layout),
         };
         for (number, input) in layout.inputs.iter().enumerate() {
             let numbers = unknowns.columns(number);
@@ -119,10 +122,14 @@ impl Columns {
         }
     }
 
-    /// Takes the difference quotients of the last answers of all workers, if columns were asked for.
+    /// Takes the difference quotients of the last answers of all workers, if columns were asked for; otherwise carries the last
+    /// ones along to the attitudes of the last prediction.
     pub fn difference(&mut self, parts: &Parts) {
+        let ahead = self.ahead;
+        let looked = |subsystem: usize| parts.subsystems[subsystem].looked(ahead).0;
         if !std::mem::take(&mut self.are_fresh) {
-            return;
+            let (columns, own) = (&mut self.columns, &self.of_input);
+            return self.carriage.carry(&parts.layout, looked, columns, own);
         }
         for (input, columns) in parts.layout.inputs.iter().zip(&self.of_input) {
             let (predicted, perturbed) = parts.subsystems[input.subsystem].looked(self.ahead);
@@ -132,6 +139,7 @@ impl Columns {
                 }
             }
         }
+        self.carriage.keep(&parts.layout, looked, &self.columns);
     }
 }
 

@@ -79,38 +79,82 @@ pub fn level_of(method: &Method) -> Level {
 }
 
 impl Condition {
+    /// A solver for each linear system of the condition.
+    pub fn solvers(&self, system: &System) -> Vec<LinearSolver> {
+        let systems = match self {
+            Self::Baumgarte { .. } => 1,
+            Self::Weighted { .. } => system.level().up_to().len(),
+        };
+        let solver = |_| LinearSolver::new(system.pattern());
+        (0..systems).map(solver).collect()
+    }
+
     /// Solves the linearised condition for the change of the multipliers from their prediction.
     pub fn solve(
         &self,
         system: &mut System,
-        solver: &mut LinearSolver,
+        solvers: &mut [LinearSolver],
         change: &mut [f64],
     ) -> Result<(), SingularRow> {
+        let level = system.level();
         match *self {
             Self::Baumgarte { beta, gamma } => {
                 system.combine([1.0, beta, gamma]);
-                let level = system.level();
                 let (pattern, jacobian, own) = system.combined_equation();
-                solver
+                solvers[0]
                     .solve(pattern, jacobian, own)
                     .map_err(|SingularColumn(row)| SingularRow { row, level })?;
                 change.copy_from_slice(own);
-                Ok(())
             }
             Self::Weighted { a, b } => {
                 change.fill(0.0);
-                for (&level, weight) in system.level().up_to().iter().zip([1.0, a, b]) {
-                    let share = weight / (1.0 + a + b);
+                let levels = level.up_to().iter().zip(weights(a, b));
+                for ((&level, share), solver) in levels.zip(solvers) {
                     let (pattern, jacobian, own) = system.level_equation(level);
                     solver
                         .solve(pattern, jacobian, own)
                         .map_err(|SingularColumn(row)| SingularRow { row, level })?;
-                    for (change, own) in change.iter_mut().zip(own) {
-                        *change += share * *own;
-                    }
+                    add(share, own, change);
                 }
-                Ok(())
             }
         }
+        Ok(())
+    }
+
+    /// Solves again with the matrices of the last [`Condition::solve`], for other residuals in `system`.
+    pub fn solve_again(
+        &self,
+        system: &mut System,
+        solvers: &mut [LinearSolver],
+        change: &mut [f64],
+    ) {
+        match *self {
+            Self::Baumgarte { beta, gamma } => {
+                system.combine_residuals([1.0, beta, gamma]);
+                let own = system.combined_rhs();
+                solvers[0].solve_again(own);
+                change.copy_from_slice(own);
+            }
+            Self::Weighted { a, b } => {
+                change.fill(0.0);
+                let levels = system.level().up_to().iter().zip(weights(a, b));
+                for ((&level, share), solver) in levels.zip(solvers) {
+                    let own = system.level_rhs(level);
+                    solver.solve_again(own);
+                    add(share, own, change);
+                }
+            }
+        }
+    }
+}
+
+/// Shares of the three levels in the multipliers (S1 eq. 76).
+fn weights(a: f64, b: f64) -> [f64; 3] {
+    [1.0, a, b].map(|weight| weight / (1.0 + a + b))
+}
+
+fn add(share: f64, own: &[f64], change: &mut [f64]) {
+    for (change, own) in change.iter_mut().zip(own) {
+        *change += share * *own;
     }
 }

@@ -1,6 +1,7 @@
 //! What a predictor/corrector method does in a macro step; in which order is told by the co-simulation.
 
 use crate::cosimulation::Parts;
+use crate::coupling::measure::Change;
 use crate::error::RunError;
 use crate::results::Verdict;
 use crate::time::MacroStep;
@@ -37,4 +38,26 @@ pub(crate) trait Corrector: Send {
 
     /// How well the outputs after the advance meet what their linearisation promised.
     fn judge(&mut self, parts: &Parts) -> Verdict;
+
+    /// The method as one that can correct a step again; `None` if it cannot: it then gets new columns in every step.
+    fn again(&mut self) -> Option<&mut dyn Again> {
+        None
+    }
+}
+
+/// A method that can correct a macro step more than once.
+pub(crate) trait Again {
+    /// Fills in another look-ahead over `step` from the same macro point, with the corrected inputs in place of the predicted
+    /// ones, and perturbed ones if `with_columns`: [`Corrector::correct`] then corrects them further.
+    fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool);
+
+    /// Size of the last correction.
+    fn last_change(&self) -> Change;
+
+    /// Whether the columns at hand belong to a look-ahead over `step`: to its length and to the shape of its polynomials.
+    fn has_columns(&self, step: MacroStep) -> bool;
+
+    /// What another correction from the outputs after the advance would change, with the matrix at hand, relative to the
+    /// first corrections of the last macro steps. Comes after [`Corrector::move_on`].
+    fn remainder(&mut self, parts: &Parts) -> f64;
 }

@@ -8,7 +8,7 @@ use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
 use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Outcome, Parts, exchange};
+use crate::cosimulation::{Ahead, Outcome, Parts, Passes, exchange};
 use crate::error::RunError;
 use crate::results::Verdict;
 use crate::scene::Increment;
@@ -27,7 +27,7 @@ pub struct Explicit {
     memory: Vec<f64>,
     columns: Columns,
     system: System,
-    solver: LinearSolver,
+    solvers: Vec<LinearSolver>,
 }
 
 impl Explicit {
@@ -37,18 +37,19 @@ impl Explicit {
         let unknowns = Unknowns::ends(&parts.layout);
         let columns = Columns::new(increment, Ahead::Step, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
+        let condition = Condition::Baumgarte {
+            beta: 2.0 * mu,
+            gamma: mu * mu,
+        };
         Self {
-            condition: Condition::Baumgarte {
-                beta: 2.0 * mu,
-                gamma: mu * mu,
-            },
+            condition,
             rows: parts.layout.rows.len(),
             change: vec![0.0; size],
             values: history.newest().to_vec(),
             history,
             memory: vec![0.0; size],
             columns,
-            solver: LinearSolver::new(system.pattern()),
+            solvers: condition.solvers(&system),
             system,
         }
     }
@@ -89,6 +90,7 @@ impl Explicit {
         Ok(Outcome {
             verdict: Verdict::Uncorrected,
             solving,
+            passes: Passes::default(),
         })
     }
 
@@ -116,7 +118,7 @@ impl Explicit {
         self.system
             .assemble(&parts.layout, outputs, self.columns.all(), point);
         self.condition
-            .solve(&mut self.system, &mut self.solver, &mut self.change)
+            .solve(&mut self.system, &mut self.solvers, &mut self.change)
             .map_err(|singular| singular.in_step(parts, step))?;
         let trial = self.history.newest().iter().zip(&self.change);
         for (value, (trial, change)) in self.values.iter_mut().zip(trial) {

@@ -10,12 +10,14 @@
 //! * [`promise`]: what a correction promises, and what the workers make of it;
 //! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
 
+pub mod carriage;
 pub mod columns;
 pub mod condition;
 pub mod corrector;
 pub mod explicit;
 pub mod hermite;
 pub mod layout;
+pub mod measure;
 pub mod pattern;
 pub mod penalty;
 pub mod promise;

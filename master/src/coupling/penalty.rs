@@ -14,7 +14,7 @@ use std::ops::Range;
 use super::condition::check_finite;
 use super::layout::{Layout, Over, Row};
 use super::system::motion_of;
-use crate::cosimulation::{Outcome, Parts, exchange};
+use crate::cosimulation::{Outcome, Parts, Passes, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::results::Verdict;
@@ -83,6 +83,7 @@ impl Penalty {
         Ok(Outcome {
             verdict: Verdict::Uncorrected,
             solving: 0.0,
+            passes: Passes::default(),
         })
     }
 

@@ -9,6 +9,8 @@ use crate::results::{Defect, Verdict};
 pub struct Promise {
     predicted: Vec<f64>,
     shift: Vec<f64>,
+    /// Size of the first correction of the step, if there are several.
+    scales: Vec<f64>,
 }
 
 impl Promise {
@@ -17,6 +19,7 @@ impl Promise {
         Self {
             predicted: vec![0.0; size],
             shift: vec![0.0; size],
+            scales: vec![0.0; size],
         }
     }
 
@@ -26,20 +29,36 @@ impl Promise {
             .copy_from_slice(system.residual(Level::Position));
     }
 
+    /// A new macro step begins.
+    pub fn forget(&mut self) {
+        self.scales.fill(0.0);
+    }
+
+    /// Keeps the size of a correction that another one follows in the same macro step.
+    pub fn remember(&mut self, system: &System, change: &[f64]) {
+        system.shift(Level::Position, change, &mut self.shift);
+        let terms = self.predicted.iter().zip(&self.shift);
+        for (scale, (predicted, shift)) in self.scales.iter_mut().zip(terms) {
+            *scale = predicted.abs().max(shift.abs()).max(*scale);
+        }
+    }
+
     /// Compares the position conditions at the outputs after the advance with what their linearisation in `system` promised
     /// for the `change` of the unknowns.
     pub fn judge(&mut self, system: &System, parts: &Parts, change: &[f64]) -> Verdict {
         system.shift(Level::Position, change, &mut self.shift);
         let corrected = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
         let mut defect = Defect::default();
-        let mut terms = self.predicted.iter().zip(&self.shift);
+        let terms = self.predicted.iter().zip(&self.shift);
+        let mut terms = terms.zip(&self.scales);
         for (number, joint) in parts.layout.joints.iter().enumerate() {
             let motion = motion_of(&parts.layout, number, corrected);
             let rows = joint.joint.conditions().zip(&mut terms);
-            for (condition, (predicted, shift)) in rows {
+            for (condition, ((predicted, shift), first)) in rows {
                 let found = condition.value(Level::Position, &motion);
                 let extent = condition.extent(Level::Position, &motion);
-                defect.add(*predicted, *shift, found, extent);
+                let scale = predicted.abs().max(shift.abs()).max(*first);
+                defect.add(predicted + shift, scale, found, extent);
             }
         }
         defect.verdict()

@@ -2,8 +2,9 @@
 
 use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
-use super::corrector::Corrector;
+use super::corrector::{Again, Corrector};
 use super::layout::Over;
+use super::measure::{Change, Measure};
 use super::promise::Promise;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
@@ -29,7 +30,14 @@ pub struct SemiImplicit {
     memory: Vec<f64>,
     columns: Columns,
     system: System,
-    solver: LinearSolver,
+    solvers: Vec<LinearSolver>,
+    /// What another correction would change.
+    remaining: Vec<f64>,
+    measure: Measure,
+    /// Whether the look-ahead is the first one over its step.
+    is_first: bool,
+    /// To what the columns belong.
+    shape: Shape,
 }
 
 impl SemiImplicit {
@@ -56,9 +64,32 @@ impl SemiImplicit {
             promise: Promise::new(size),
             memory: zeros(),
             columns,
-            solver: LinearSolver::new(system.pattern()),
+            solvers: condition.solvers(&system),
+            remaining: zeros(),
+            measure: Measure::new(&parts.layout),
+            is_first: true,
+            shape: Shape::default(),
             system,
         }
+    }
+}
+
+/// The step and the nodes of the polynomials to which columns belong.
+#[derive(Default)]
+struct Shape {
+    length: f64,
+    nodes: Vec<f64>,
+}
+
+impl Shape {
+    fn note(&mut self, history: &History, length: f64) {
+        self.length = length;
+        self.nodes.clear();
+        self.nodes.extend_from_slice(history.times());
+    }
+
+    fn is(&self, history: &History, length: f64) -> bool {
+        self.length == length && self.nodes == history.times()
     }
 }
 
@@ -75,13 +106,16 @@ impl Corrector for SemiImplicit {
         self.system
             .assemble(&parts.layout, outputs, self.columns.all(), point);
         self.condition
-            .solve(&mut self.system, &mut self.solver, &mut self.change)
+            .solve(&mut self.system, &mut self.solvers, &mut self.change)
             .map_err(|singular| singular.in_step(parts, step))?;
         let ends = self.predicted.iter().zip(&self.change);
         for (corrected, (predicted, change)) in self.corrected.iter_mut().zip(ends) {
             *corrected = predicted + change;
         }
         self.promise.take(&self.system);
+        if self.is_first {
+            self.measure.note(&self.change);
+        }
         check_finite(&self.corrected, parts, step)
     }
 
@@ -127,6 +161,11 @@ impl Corrector for SemiImplicit {
             with_columns,
         };
         self.columns.request(parts, look, &mut self.memory);
+        self.is_first = true;
+        self.promise.forget();
+        if with_columns {
+            self.shape.note(&self.history, length);
+        }
         Ok(())
     }
 
@@ -141,5 +180,54 @@ impl Corrector for SemiImplicit {
 
     fn judge(&mut self, parts: &Parts) -> Verdict {
         self.promise.judge(&self.system, parts, &self.change)
+    }
+
+    fn again(&mut self) -> Option<&mut dyn Again> {
+        Some(self)
+    }
+}
+
+impl Again for SemiImplicit {
+    /// The interpolation through the corrected end values takes the place of the extrapolation.
+    fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
+        self.promise.remember(&self.system, &self.change);
+        self.predicted.copy_from_slice(&self.corrected);
+        self.is_first = false;
+        parts.prepare_pass(step);
+        let curves = Lagrange {
+            history: &self.history,
+            curve: Curve::Interpolated(&self.predicted),
+            length: step.length,
+        };
+        let look = Look {
+            predicted: &curves,
+            raised: &curves,
+            ends: &self.predicted,
+            with_columns,
+        };
+        self.columns.request(parts, look, &mut self.memory);
+        if with_columns {
+            self.shape.note(&self.history, step.length);
+        }
+    }
+
+    fn last_change(&self) -> Change {
+        self.measure.of(&self.change, &self.corrected)
+    }
+
+    fn has_columns(&self, step: MacroStep) -> bool {
+        self.shape.is(&self.history, step.length)
+    }
+
+    /// The solution for the conditions at the corrected outputs, with the matrix of the correction.
+    fn remainder(&mut self, parts: &Parts) -> f64 {
+        let point = Point::ends(&self.corrected, self.before.attitudes());
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+        let system = &mut self.system;
+        system.assemble_residuals(&parts.layout, outputs, point);
+        system.drop_rounding(&parts.layout, point);
+        self.condition
+            .solve_again(system, &mut self.solvers, &mut self.remaining);
+        self.measure.of(&self.remaining, &self.corrected).of_usual
     }
 }

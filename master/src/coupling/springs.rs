@@ -9,7 +9,7 @@ use super::condition::check_finite;
 use super::layout::DrivenInput;
 use super::layout::input::Source;
 use super::system::motion_of;
-use crate::cosimulation::{Outcome, Parts, exchange};
+use crate::cosimulation::{Outcome, Parts, Passes, exchange};
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
 use crate::results::Verdict;
@@ -67,6 +67,7 @@ impl Springs {
         Ok(Outcome {
             verdict: Verdict::Uncorrected,
             solving: 0.0,
+            passes: Passes::default(),
         })
     }
 

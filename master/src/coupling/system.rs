@@ -8,7 +8,7 @@ use super::columns::Column;
 use super::layout::{DrivenInput, Layout};
 use super::pattern::Pattern;
 use super::unknowns::{Term, Unknowns};
-use crate::joint::{End, Level, Motion};
+use crate::joint::{End, Level, Motion, ROUNDING};
 
 /// `g` and its derivatives `G` with respect to the unknowns on every level. The rows are the conditions of the joints, then
 /// those of the exchanged variables: `w - y = 0`, which is the same on every level; but for variables that have their rate
@@ -323,47 +323,98 @@ impl System {
             .multiply(&self.jacobians[level as usize], change, shift);
     }
 
+    /// Takes what is rounding in the residuals as 0, so that a condition that is met asks for no change.
+    pub fn drop_rounding(&mut self, layout: &Layout, point: Point<'_>) {
+        let mut row = 0;
+        for (joint, motion) in layout.joints.iter().zip(&self.motions) {
+            for condition in joint.joint.conditions() {
+                for &level in self.level.up_to() {
+                    let residual = &mut self.residuals[level as usize][row];
+                    drop_below(ROUNDING * condition.extent(level, motion), residual);
+                }
+                row += 1;
+            }
+        }
+        for (row, variable) in point.w.iter().enumerate().skip(self.rows) {
+            for &level in self.level.up_to() {
+                drop_below(
+                    ROUNDING * variable.abs(),
+                    &mut self.residuals[level as usize][row],
+                );
+            }
+        }
+    }
+
     /// Forms `sum_l weight_l g_l` and `sum_l weight_l G_l` over the levels for the rows of joints; the rows of exchanged
     /// variables are the same on every level and stay as they are.
     pub fn combine(&mut self, weights: [f64; 3]) {
-        self.combined_residual.fill(0.0);
+        self.combine_residuals(weights);
         self.combined_jacobian.fill(0.0);
         for &level in self.level.up_to() {
-            let own = |row: usize| match level {
-                _ if row < self.rows => weights[level as usize],
-                Level::Position => 1.0,
-                Level::Velocity | Level::Acceleration => 0.0,
-            };
-            let residual = &self.residuals[level as usize];
-            for (row, (sum, g)) in self.combined_residual.iter_mut().zip(residual).enumerate() {
-                *sum += own(row) * g;
-            }
             let jacobian = &self.jacobians[level as usize];
             let sums = self.combined_jacobian.iter_mut().zip(jacobian);
             for ((sum, g), &row) in sums.zip(self.pattern.rows()) {
-                *sum += own(row) * g;
+                *sum += weight_of_row(row < self.rows, level, weights) * g;
+            }
+        }
+    }
+
+    /// Forms `sum_l weight_l g_l` alone.
+    pub fn combine_residuals(&mut self, weights: [f64; 3]) {
+        self.combined_residual.fill(0.0);
+        for &level in self.level.up_to() {
+            let residual = &self.residuals[level as usize];
+            for (row, (sum, g)) in self.combined_residual.iter_mut().zip(residual).enumerate() {
+                *sum += weight_of_row(row < self.rows, level, weights) * g;
             }
         }
     }
 
     /// `sum_l weight_l G_l` and `-sum_l weight_l g_l`, the latter in memory that may be written over.
     pub fn combined_equation(&mut self) -> (&Pattern, &[f64], &mut [f64]) {
-        for (rhs, g) in self.rhs.iter_mut().zip(&self.combined_residual) {
-            *rhs = -g;
-        }
+        negate(&self.combined_residual, &mut self.rhs);
         (&self.pattern, &self.combined_jacobian, &mut self.rhs)
+    }
+
+    /// `-sum_l weight_l g_l`, in memory that may be written over.
+    pub fn combined_rhs(&mut self) -> &mut [f64] {
+        self.combined_equation().2
     }
 
     /// `G` and `-g` of one level, the latter in memory that may be written over.
     pub fn level_equation(&mut self, level: Level) -> (&Pattern, &[f64], &mut [f64]) {
-        for (rhs, g) in self.rhs.iter_mut().zip(&self.residuals[level as usize]) {
-            *rhs = -g;
-        }
+        negate(&self.residuals[level as usize], &mut self.rhs);
         (
             &self.pattern,
             &self.jacobians[level as usize],
             &mut self.rhs,
         )
+    }
+
+    /// `-g` of one level, in memory that may be written over.
+    pub fn level_rhs(&mut self, level: Level) -> &mut [f64] {
+        self.level_equation(level).2
+    }
+}
+
+/// The rows of exchanged variables are the same on every level, so they count once.
+fn weight_of_row(is_of_joint: bool, level: Level, weights: [f64; 3]) -> f64 {
+    match level {
+        _ if is_of_joint => weights[level as usize],
+        Level::Position => 1.0,
+        Level::Velocity | Level::Acceleration => 0.0,
+    }
+}
+
+fn negate(values: &[f64], rhs: &mut [f64]) {
+    for (rhs, value) in rhs.iter_mut().zip(values) {
+        *rhs = -value;
+    }
+}
+
+fn drop_below(least: f64, residual: &mut f64) {
+    if residual.abs() <= least {
+        *residual = 0.0;
     }
 }
 

@@ -59,6 +59,9 @@ impl Level {
     }
 }
 
+/// Residuals below this share of the terms that cancel in them ([`Condition::extent`]) are rounding.
+pub const ROUNDING: f64 = 1e-11;
+
 /// Motion below this (m, rad, and per s) is no measure of an opening: a joint may rest in the origin, and then its
 /// positions and velocities are nothing but rounding.
 pub const LEAST_MOTION: f64 = 1e-3;

@@ -1,11 +1,13 @@
 //! What a run tells: rows, residuals, verdicts, statistics.
 
 mod guard;
+mod integrations;
 mod row;
 mod statistics;
 mod verdict;
 
 pub use guard::Guard;
+pub use integrations::{Cause, Integrations};
 pub use row::{Drawn, Row};
-pub use statistics::{JointResiduals, Statistics, SubsystemStatistics};
+pub use statistics::{Corrections, JointResiduals, Statistics, SubsystemStatistics};
 pub use verdict::{Defect, Verdict};

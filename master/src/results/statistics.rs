@@ -4,8 +4,8 @@ use std::time::Duration;
 
 use serde::Serialize;
 
-use super::{Row, Verdict};
-use crate::cosimulation::{FreeVelocity, Outcome, Subsystem};
+use super::{Integrations, Row, Verdict};
+use crate::cosimulation::{FreeVelocity, Outcome, Passes, Subsystem};
 use crate::coupling::layout::Layout;
 
 /// What a run cost and how well its joints held.
@@ -15,8 +15,12 @@ pub struct Statistics {
     pub macro_steps: u64,
     /// Turns between the master and a worker: one message each way on an exchange stream, several unary calls otherwise.
     pub exchanges: u64,
-    /// Integrations over a macro step, predicted, perturbed and corrected ones together.
+    /// Integrations over a macro step that the workers report, of all causes together.
     pub integrations: u64,
+    /// Integrations over a macro step that the master asked for, by cause.
+    pub integrations_by_cause: Integrations,
+    /// How the macro steps were corrected.
+    pub corrections: Corrections,
     /// Internal steps of the solvers.
     pub solver_steps: u64,
     /// Time in s of all macro steps in the master.
@@ -33,6 +37,34 @@ pub struct Statistics {
     pub free_velocities: Vec<FreeVelocity>,
     /// The share of every subsystem.
     pub subsystems: Vec<SubsystemStatistics>,
+}
+
+/// How the macro steps were corrected.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Corrections {
+    /// Macro steps for which columns of the coupling Jacobian were integrated; the others used columns of earlier ones.
+    pub steps_with_columns: u64,
+    /// Macro steps that were corrected more than once.
+    pub steps_with_passes: u64,
+    /// Corrections after the first one of a macro step.
+    pub passes: u64,
+    /// Most of them in one macro step.
+    pub most_passes: u32,
+    /// Largest share of a correction that the next one in the same macro step still changed: the slowest convergence.
+    pub slowest_rate: f64,
+    /// Macro steps whose last correction was larger than the tolerance of the scene.
+    pub unconverged: u64,
+}
+
+impl Corrections {
+    fn count(&mut self, passes: &Passes) {
+        self.steps_with_columns += u64::from(passes.with_columns);
+        self.steps_with_passes += u64::from(passes.count > 0);
+        self.passes += u64::from(passes.count);
+        self.most_passes = self.most_passes.max(passes.count);
+        self.slowest_rate = self.slowest_rate.max(passes.rate.unwrap_or(0.0));
+        self.unconverged += u64::from(passes.is_unconverged);
+    }
 }
 
 /// Number of macro steps by verdict.
@@ -70,8 +102,10 @@ pub struct SubsystemStatistics {
     pub route: &'static str,
     /// Exchanges with its worker.
     pub exchanges: u64,
-    /// Integrations over a macro step.
+    /// Integrations over a macro step that its worker reports.
     pub integrations: u64,
+    /// Integrations over a macro step that the master asked for, by cause.
+    pub integrations_by_cause: Integrations,
     /// Internal steps of its solver.
     pub solver_steps: u64,
     /// Time in its solver in s.
@@ -99,6 +133,7 @@ impl Statistics {
         self.macro_steps += 1;
         self.time_total += time.as_secs_f64();
         self.time_solving += outcome.solving;
+        self.corrections.count(&outcome.passes);
         let verdicts = &mut self.verdicts;
         *match outcome.verdict {
             Verdict::Uncorrected => &mut verdicts.uncorrected,
@@ -119,11 +154,13 @@ impl Statistics {
             route: subsystem.route(),
             exchanges: subsystem.exchanges,
             integrations: work.integrations,
+            integrations_by_cause: subsystem.asked,
             solver_steps: work.steps,
             time_in_solver: work.nanoseconds as f64 * 1e-9,
         };
         self.exchanges += own.exchanges;
         self.integrations += own.integrations;
+        self.integrations_by_cause.add(&own.integrations_by_cause);
         self.solver_steps += own.solver_steps;
         self.time_in_solvers += own.time_in_solver;
         self.subsystems.push(own);

@@ -1,5 +1,7 @@
 //! The verdict on an accepted macro step.
 
+use crate::joint::ROUNDING;
+
 /// How well the corrected step kept what its linearisation promised, or that the method promises nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Verdict {
@@ -19,20 +21,17 @@ const GOOD: f64 = 0.01;
 /// Defect up to which a step is fair.
 const FAIR: f64 = 0.5;
 
-/// Differences below this share of the motion are rounding.
-const ROUNDING: f64 = 1e-11;
-
-/// Collects the largest defect `|g - (g_predicted + G change)| / max(|g_predicted|, |G change|)` over the rows.
+/// Collects the largest defect `|g - (g_predicted + G change)|` over the rows, relative to the first correction of the step,
+/// `max(|g_predicted|, |G change|)`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Defect {
     largest: f64,
 }
 
 impl Defect {
-    /// Takes one row: the condition at the prediction, its linear shift, what was found, the size of the motion.
-    pub fn add(&mut self, predicted: f64, shift: f64, found: f64, extent: f64) {
-        let scale = predicted.abs().max(shift.abs());
-        let missing = (found - (predicted + shift)).abs() - ROUNDING * extent;
+    /// Takes one row: what was promised, the size of the correction, what was found, the size of the motion.
+    pub fn add(&mut self, promised: f64, scale: f64, found: f64, extent: f64) {
+        let missing = (found - promised).abs() - ROUNDING * extent;
         let defect = if missing <= 0.0 { 0.0 } else { missing / scale };
         let defect = if defect.is_nan() {
             f64::INFINITY
@@ -58,8 +57,8 @@ mod tests {
 
     fn verdict(found: f64) -> Verdict {
         let mut defect = Defect::default();
-        defect.add(1e-3, -1e-3, 0.0, 1.0);
-        defect.add(1e-3, -1e-3, found, 1.0);
+        defect.add(0.0, 1e-3, 0.0, 1.0);
+        defect.add(0.0, 1e-3, found, 1.0);
         defect.verdict()
     }
 

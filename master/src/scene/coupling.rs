@@ -4,7 +4,9 @@ use super::error_kind::{Names, SceneErrorKind};
 use super::formula::{Formula, Unit};
 use super::index::Weights;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
-use super::resolved::{Coupling, Increment, Loads, Method, Order, Spring, Variant};
+use super::resolved::{
+    Coupling, Increment, Iterations, Jacobian, Loads, Method, Order, Otherwise, Spring, Variant,
+};
 use super::written::Value;
 
 /// The key whose override changes which other keys there are.
@@ -28,6 +30,18 @@ const LOADS: [(&str, Loads); 3] = [
     ("worker", Loads::Worker),
     ("master", Loads::Master),
 ];
+
+/// How long columns are used.
+const JACOBIANS: [(&str, Jacobian); 2] = [
+    ("reuse", Jacobian::Reuse),
+    ("every-step", Jacobian::EveryStep),
+];
+
+/// What happens to a step whose corrections have not converged.
+const OTHERWISE: [(&str, Otherwise); 2] = [("warn", Otherwise::Warn), ("fail", Otherwise::Fail)];
+
+/// Corrections that have not converged after so many passes do not converge.
+const MOST_PASSES: usize = 1000;
 
 /// The variants of Hermite coupling.
 const VARIANTS: [(&str, Variant); 5] = [
@@ -68,8 +82,8 @@ const METHODS: [(&str, Kind); 7] = [
 impl Kind {
     fn parameters(self) -> &'static [&'static str] {
         match self {
-            Self::Baumgarte => &["degree", "index", "beta", "gamma"],
-            Self::Weighted => &["degree", "index", "a", "b"],
+            Self::Baumgarte => &["degree", "index", "beta", "gamma", "jacobian", "iterations"],
+            Self::Weighted => &["degree", "index", "a", "b", "jacobian", "iterations"],
             Self::Hermite => &["variant"],
             Self::Explicit => &["degree", "mu"],
             Self::Penalty => &[
@@ -164,6 +178,18 @@ pub(super) fn read(
         .map_or(Some(Loads::Automatic), |field| {
             field.choice(&LOADS, problems)
         });
+    let jacobian = section
+        .get("jacobian")
+        .map_or(Some(Jacobian::EveryStep), |field| {
+            field.choice(&JACOBIANS, problems)
+        });
+    let iterations = match section.get("iterations") {
+        Some(field) => field
+            .section(problems)
+            .and_then(|section| read_iterations(&section, problems))
+            .map(Some),
+        None => Some(None),
+    };
     Some(Coupling {
         method: method?,
         degree: degree?,
@@ -171,6 +197,8 @@ pub(super) fn read(
         loads: loads?,
         macro_step: macro_step?,
         increment: increment?,
+        jacobian: jacobian?,
+        iterations: iterations?,
     })
 }
 
@@ -227,6 +255,26 @@ pub(super) fn read_macro_step(
         }
         _ => Some(macro_step),
     }
+}
+
+fn read_iterations(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Iterations> {
+    section.allow_only(&["most", "tolerance", "otherwise"], problems);
+    let most = section
+        .get("most")
+        .map_or(Some(10), |field| field.whole(1, MOST_PASSES, problems));
+    let tolerance = section
+        .get("tolerance")
+        .map_or(Some(1e-9), |field| field.number(&POSITIVE, problems));
+    let otherwise = section
+        .get("otherwise")
+        .map_or(Some(Otherwise::Warn), |field| {
+            field.choice(&OTHERWISE, problems)
+        });
+    Some(Iterations {
+        most: u32::try_from(most?).ok()?,
+        tolerance: tolerance?,
+        otherwise: otherwise?,
+    })
 }
 
 fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Increment> {

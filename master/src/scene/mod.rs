@@ -38,9 +38,9 @@ pub use error_kind::{Names, SceneErrorKind};
 pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
-    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index, Joint,
-    JointKind, Loads, Method, Order, Output, Panel, Reference, RunSettings, Served, Side, Spring,
-    StabilitySettings, Subsystem, Variant,
+    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index,
+    Iterations, Jacobian, Joint, JointKind, Loads, Method, Order, Otherwise, Output, Panel,
+    Reference, RunSettings, Served, Side, Spring, StabilitySettings, Subsystem, Variant,
 };
 pub use stability_rules::{Warning, warnings};
 pub use subsystem::is_worker_address;

@@ -26,17 +26,17 @@ pub struct Coupling {
     pub macro_step: f64,
     /// Increments of the finite differences. Default automatic.
     pub increment: Increment,
+    /// How long columns of the coupling Jacobian are used. Default every-step.
+    pub jacobian: Jacobian,
+    /// Corrections until they change nothing of note; absent: one, as in S1.
+    pub iterations: Option<Iterations>,
 }
 
 impl Coupling {
     /// Whether a multiplier at `T_{N+1}` is its mean over the step before: the corrector of degree 0 holds it over the
     /// whole step, so as a value in time it belongs to the middle of the step.
     pub fn multipliers_are_step_means(&self) -> bool {
-        let is_corrected = matches!(
-            self.method,
-            Method::Baumgarte { .. } | Method::Weighted { .. }
-        );
-        is_corrected && self.degree == 0
+        self.method.is_corrected() && self.degree == 0
     }
 }
 
@@ -97,6 +97,13 @@ pub enum Method {
         /// Damping in N s/m, 0 or greater; default 0.
         damping: f64,
     },
+}
+
+impl Method {
+    /// Whether the coupling variables at the end of every macro step are predicted and corrected.
+    pub fn is_corrected(&self) -> bool {
+        matches!(self, Self::Baumgarte { .. } | Self::Weighted { .. })
+    }
 }
 
 /// What the multipliers of Hermite coupling are on a macro step: their conditions at its start `T_N` and its end `T_{N+1}`.
@@ -172,6 +179,37 @@ pub enum Increment {
     Automatic,
     /// eps max(1, |u|) for the coupling variable u; eps greater than 0 (Schweizer & Lu, Sect. 3.3).
     Relative(f64),
+}
+
+/// How long the columns of the coupling Jacobian, the workers' responses, are used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Jacobian {
+    /// Until a macro step shows that they have become wrong.
+    Reuse,
+    /// For one macro step (Schweizer & Lu, Sect. 3.3).
+    EveryStep,
+}
+
+/// When the corrections of a macro step come to an end.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Iterations {
+    /// Most passes after the first correction; default 10.
+    pub most: u32,
+    /// Change of the coupling variables, relative to their size, that counts as none; default 1e-9.
+    pub tolerance: f64,
+    /// What happens to a step that has not converged; default warn.
+    pub otherwise: Otherwise,
+}
+
+/// What happens to a macro step whose corrections have not converged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Otherwise {
+    /// It is accepted and counted.
+    Warn,
+    /// The run stops.
+    Fail,
 }
 
 /// Who evaluates a load whose direction turns with the bodies.

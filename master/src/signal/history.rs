@@ -85,6 +85,11 @@ impl History {
         &self.attitudes
     }
 
+    /// Times of the macro points relative to the present one, in s: 0, then negative ones.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
     /// Takes over the values of another history of the same variables, in memory that is already there.
     pub fn copy_from(&mut self, other: &Self) {
         self.times.clone_from(&other.times);

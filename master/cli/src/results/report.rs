@@ -159,6 +159,7 @@ impl RunReport {
             "  integrations {:>10}   {} internal solver steps",
             statistics.integrations, statistics.solver_steps
         )?;
+        write_causes(statistics, text)?;
         for subsystem in &statistics.subsystems {
             writeln!(
                 text,
@@ -174,6 +175,37 @@ impl RunReport {
             statistics.time_solving
         )
     }
+}
+
+/// What the integrations were for, and how often the corrector had to work twice.
+fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result {
+    let causes = &statistics.integrations_by_cause;
+    let corrections = &statistics.corrections;
+    writeln!(
+        text,
+        "    predictor {}, columns {} (in {} macro steps), passes {}, corrector {}",
+        causes.predictor,
+        causes.columns,
+        corrections.steps_with_columns,
+        causes.passes,
+        causes.corrector
+    )?;
+    if causes.sum() != statistics.integrations {
+        writeln!(
+            text,
+            "    the workers report {}, the master asked for {}: a worker counts otherwise or repeats its work",
+            statistics.integrations,
+            causes.sum()
+        )?;
+    }
+    if corrections.unconverged > 0 {
+        writeln!(
+            text,
+            "  not converged {:>9}   macro steps; slowest rate {:.2e}, most passes {}",
+            corrections.unconverged, corrections.slowest_rate, corrections.most_passes
+        )?;
+    }
+    Ok(())
 }
 
 fn as_json<'a>(

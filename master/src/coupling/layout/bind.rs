@@ -65,6 +65,7 @@ impl<'a> Binder<'a> {
             exchanged: Vec::new(),
             inputs: Vec::new(),
             joint_loads: vec![Vec::new(); subsystems],
+            frames: Vec::new(),
             outputs: vec![Vec::new(); subsystems],
             level,
             ranges: vec![0..0; subsystems],
@@ -300,7 +301,8 @@ impl<'a> Binder<'a> {
     }
 }
 
-fn place_of(names: &mut Vec<String>, name: &str) -> usize {
+/// The place of a name, which is added if it is not there.
+pub(super) fn place_of(names: &mut Vec<String>, name: &str) -> usize {
     names
         .iter()
         .position(|known| known == name)

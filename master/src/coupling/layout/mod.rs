@@ -6,6 +6,7 @@
 
 mod bind;
 pub mod exchanged;
+pub mod frames;
 pub mod input;
 mod loads;
 pub mod marker;
@@ -18,6 +19,7 @@ use linchpin_proto::v1;
 use nalgebra::UnitQuaternion;
 
 pub use exchanged::{Exchanged, What};
+pub use frames::Frame;
 pub use input::{DrivenInput, Over, Source};
 pub use marker::BoundEnd;
 pub use springs::springs_at;
@@ -39,6 +41,8 @@ pub struct Layout {
     pub inputs: Vec<DrivenInput>,
     /// For each subsystem the joint loads that it evaluates itself.
     pub joint_loads: Vec<Vec<v1::JointLoad>>,
+    /// Axes of the bodies; none unless columns of the coupling Jacobian are carried along with them.
+    pub frames: Vec<Frame>,
     /// For each subsystem the names of the outputs that the coupling reads, each once.
     pub outputs: Vec<Vec<String>>,
     /// Highest level of the conditions.

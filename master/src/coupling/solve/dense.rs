@@ -2,6 +2,7 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
+use faer::perm::PermRef;
 use faer::{Mat, Par};
 
 use super::{SingularColumn, is_rounding};
@@ -41,10 +42,7 @@ impl Dense {
         for ((&row, &column), value) in places.zip(values) {
             self.matrix[(row, column)] = *value;
         }
-        for (row, value) in rhs.iter().enumerate() {
-            self.rhs[(row, 0)] = *value;
-        }
-        let (_, permutation) = factor::lu_in_place(
+        factor::lu_in_place(
             self.matrix.as_mut(),
             &mut self.permutation,
             &mut self.inverse,
@@ -58,10 +56,20 @@ impl Dense {
                 return Err(SingularColumn(column));
             }
         }
+        self.substitute(rhs);
+        Ok(())
+    }
+
+    /// Solves with the factors at hand.
+    pub fn substitute(&mut self, rhs: &mut [f64]) {
+        for (row, value) in rhs.iter().enumerate() {
+            self.rhs[(row, 0)] = *value;
+        }
+        let n = self.permutation.len();
         solve::solve_in_place(
             self.matrix.as_ref(),
             self.matrix.as_ref(),
-            permutation,
+            PermRef::new_checked(&self.permutation, &self.inverse, n),
             self.rhs.as_mut(),
             Par::Seq,
             MemStack::new(&mut self.memory),
@@ -69,6 +77,5 @@ impl Dense {
         for (row, value) in rhs.iter_mut().enumerate() {
             *value = self.rhs[(row, 0)];
         }
-        Ok(())
     }
 }

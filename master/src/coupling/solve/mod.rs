@@ -87,6 +87,15 @@ impl LinearSolver {
             Elimination::Sparse(sparse) => sparse.solve(pattern, values, rhs),
         }
     }
+
+    /// Solves with the factors of the last matrix that [`LinearSolver::solve`] solved with success, and writes the solution over
+    /// `rhs`.
+    pub fn solve_again(&mut self, rhs: &mut [f64]) {
+        match &mut self.elimination {
+            Elimination::Dense(dense) => dense.substitute(rhs),
+            Elimination::Sparse(sparse) => sparse.substitute(rhs),
+        }
+    }
 }
 
 /// Whether a pivot is zero up to rounding, or not a number; `column` are the entries of its column in the matrix.

@@ -65,11 +65,17 @@ impl Sparse {
         rhs: &mut [f64],
     ) -> Result<(), SingularColumn> {
         self.factorise(pattern, values)?;
+        self.substitute(rhs);
+        Ok(())
+    }
+
+    /// Solves with the factors at hand.
+    pub fn substitute(&mut self, rhs: &mut [f64]) {
         for (row, value) in rhs.iter().enumerate() {
             self.rhs[(row, 0)] = *value;
         }
         self.factors.solve_in_place_with_conj(
-            PermRef::new_checked(&self.pivot_rows, &self.pivot_places, pattern.size()),
+            PermRef::new_checked(&self.pivot_rows, &self.pivot_places, rhs.len()),
             self.order.as_ref(),
             Conj::No,
             self.rhs.as_mut(),
@@ -79,7 +85,6 @@ impl Sparse {
         for (row, value) in rhs.iter_mut().enumerate() {
             *value = self.rhs[(row, 0)];
         }
-        Ok(())
     }
 
     fn factorise(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), SingularColumn> {

@@ -1,0 +1,135 @@
+//! Columns of an earlier macro step, carried along with the bodies.
+
+use std::ops::Range;
+
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+
+use super::columns::Column;
+use super::layout::{Frame, Layout};
+use crate::signal::attitude::{small_rotation, unit_quaternion};
+
+/// The columns as they were measured, and the attitudes that the bodies had then.
+///
+/// The response of a rigid body to a load is constant in the axes of the body up to what its motion changes within one
+/// macro step: for a free body with mass `m`, inertia `J` and a point `r` the acceleration of the point under a force there is
+/// `f/m - r x J^-1 (r x f)`, and all of `r`, `J`, `f` turn with the body. So a column that was measured at the attitude `A` holds at the
+/// attitude `B` with every vector turned by `R = B A^T`: `C' = R C R^T`. Where several bodies move against each other this is
+/// an approximation; the rate of convergence shows how good it is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Carriage {
+    measured: Vec<Vec<f64>>,
+    attitudes: Vec<UnitQuaternion<f64>>,
+}
+
+impl Carriage {
+    /// For the frames of `layout`.
+    pub fn new(layout: &Layout) -> Self {
+        Self {
+            measured: Vec::new(),
+            attitudes: vec![UnitQuaternion::identity(); layout.frames.len()],
+        }
+    }
+
+    /// Takes columns that were measured at these coupling outputs.
+    pub fn keep<'a>(
+        &mut self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64],
+        columns: &[Column],
+    ) {
+        if layout.frames.is_empty() {
+            return;
+        }
+        self.measured.resize_with(columns.len(), Vec::new);
+        for (measured, column) in self.measured.iter_mut().zip(columns) {
+            measured.clone_from(&column.derivatives);
+        }
+        for (attitude, frame) in self.attitudes.iter_mut().zip(&layout.frames) {
+            *attitude = attitude_of(frame, outputs(frame.subsystem));
+        }
+    }
+
+    /// Turns the columns to the attitudes of these coupling outputs; `of_input` are the columns of each input.
+    pub fn carry<'a>(
+        &self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64],
+        columns: &mut [Column],
+        of_input: &[Range<usize>],
+    ) {
+        for (measured, column) in self.measured.iter().zip(&mut *columns) {
+            column.derivatives.clone_from(measured);
+        }
+        for (before, frame) in self.attitudes.iter().zip(&layout.frames) {
+            let now = attitude_of(frame, outputs(frame.subsystem));
+            let turn = now * before.inverse();
+            for own in &of_input[layout.input_range(frame.subsystem)] {
+                let measured = columns[own.clone()].iter_mut();
+                for column in measured.filter(|one| !one.derivatives.is_empty()) {
+                    turn_outputs(frame, (before, &now), &turn, &mut column.derivatives);
+                }
+            }
+            for inputs in &frame.inputs {
+                for shape in 0..of_input[inputs[0]].len() {
+                    let column = |component: usize| of_input[inputs[component]].start + shape;
+                    turn_inputs(inputs.len(), column, &turn, columns);
+                }
+            }
+        }
+    }
+}
+
+fn turn_outputs(
+    frame: &Frame,
+    (before, now): (&UnitQuaternion<f64>, &UnitQuaternion<f64>),
+    turn: &UnitQuaternion<f64>,
+    derivatives: &mut [f64],
+) {
+    for places in &frame.vectors {
+        let mut vector = Vector3::zeros();
+        for (component, &place) in vector.iter_mut().zip(places) {
+            *component = derivatives[place];
+        }
+        vector = turn * vector;
+        for (component, &place) in vector.iter().zip(places) {
+            derivatives[place] = *component;
+        }
+    }
+    if let [w, x, y, z] = frame.attitude[..] {
+        let parts = [w, x, y, z];
+        let old = [before.w, before.i, before.j, before.k];
+        let rotation = turn * small_rotation(old, parts.map(|place| derivatives[place]));
+        let change = Quaternion::from_imag(0.5 * rotation) * now.quaternion();
+        let changes = [change.w, change.i, change.j, change.k];
+        for (place, change) in parts.into_iter().zip(changes) {
+            derivatives[place] = change;
+        }
+    }
+}
+
+/// The columns of the components of one vector become those of the components in turned axes.
+fn turn_inputs(
+    components: usize,
+    column: impl Fn(usize) -> usize,
+    turn: &UnitQuaternion<f64>,
+    columns: &mut [Column],
+) {
+    for output in 0..columns[column(0)].derivatives.len() {
+        let mut row = Vector3::zeros();
+        for component in 0..components {
+            row[component] = columns[column(component)].derivatives[output];
+        }
+        row = turn * row;
+        for component in 0..components {
+            columns[column(component)].derivatives[output] = row[component];
+        }
+    }
+}
+
+fn attitude_of(frame: &Frame, outputs: &[f64]) -> UnitQuaternion<f64> {
+    match frame.attitude[..] {
+        [w, x, y, z] => unit_quaternion([w, x, y, z].map(|place| outputs[place])),
+        [angle] => UnitQuaternion::from_axis_angle(&Vector3::z_axis(), outputs[angle]),
+        _ => UnitQuaternion::identity(),
+    }
+}

@@ -1,0 +1,54 @@
+//! Integrations over a macro step by cause, as the master asked for them.
+
+use linchpin_proto::v1::ExchangeRequest;
+use serde::Serialize;
+
+/// Number of integrations over a macro step by what they were for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Integrations {
+    /// With extrapolated inputs.
+    pub predictor: u64,
+    /// With one input raised: columns of the coupling Jacobian.
+    pub columns: u64,
+    /// Tentative ones with corrected inputs, to correct them further.
+    pub passes: u64,
+    /// With corrected inputs, to stay.
+    pub corrector: u64,
+}
+
+/// What a look-ahead is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// The prediction of a macro step.
+    Predictor,
+    /// Another pass of the corrector.
+    Pass,
+}
+
+impl Integrations {
+    /// All together.
+    pub fn sum(&self) -> u64 {
+        self.predictor + self.columns + self.passes + self.corrector
+    }
+
+    /// Counts what a request asks for; a look-ahead of zero length evaluates and integrates nothing.
+    pub(crate) fn count(&mut self, request: &ExchangeRequest, looks_ahead_for: Cause) {
+        self.corrector += u64::from(request.advance.is_some());
+        let Some(predict) = request.predict.as_ref().filter(|one| one.step > 0.0) else {
+            return;
+        };
+        self.columns += predict.perturbed.len() as u64;
+        match looks_ahead_for {
+            Cause::Predictor => self.predictor += 1,
+            Cause::Pass => self.passes += 1,
+        }
+    }
+
+    /// Adds those of another subsystem.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.predictor += other.predictor;
+        self.columns += other.columns;
+        self.passes += other.passes;
+        self.corrector += other.corrector;
+    }
+}
