@@ -162,7 +162,7 @@ fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
         _ => Layout::new(coupled, level_of(method)),
     };
     let mut layout = layout.map_err(|lacks| refuse_marker(scene, lacks))?;
-    if method.is_corrected() && scene.coupling.jacobian == Jacobian::Reuse {
+    if method.keeps_columns() && scene.coupling.jacobian == Jacobian::Reuse {
         layout.add_frames(coupled);
     }
     Ok(layout)

@@ -126,7 +126,10 @@ impl Columns {
     /// ones along to the attitudes of the last prediction.
     pub fn difference(&mut self, parts: &Parts) {
         let ahead = self.ahead;
-        let looked = |subsystem: usize| parts.subsystems[subsystem].looked(ahead).0;
+        let looked = |subsystem: usize| match ahead {
+            Ahead::Step => parts.subsystems[subsystem].predicted(),
+            Ahead::Now => parts.subsystems[subsystem].coupling_values(),
+        };
         if !std::mem::take(&mut self.are_fresh) {
             let (columns, own) = (&mut self.columns, &self.of_input);
             return self.carriage.carry(&parts.layout, looked, columns, own);

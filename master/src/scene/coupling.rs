@@ -84,7 +84,7 @@ impl Kind {
         match self {
             Self::Baumgarte => &["degree", "index", "beta", "gamma", "jacobian", "iterations"],
             Self::Weighted => &["degree", "index", "a", "b", "jacobian", "iterations"],
-            Self::Hermite => &["variant"],
+            Self::Hermite => &["variant", "jacobian", "iterations"],
             Self::Explicit => &["degree", "mu"],
             Self::Penalty => &[
                 "degree",
@@ -178,11 +178,11 @@ pub(super) fn read(
         .map_or(Some(Loads::Automatic), |field| {
             field.choice(&LOADS, problems)
         });
-    let jacobian = section
-        .get("jacobian")
-        .map_or(Some(Jacobian::EveryStep), |field| {
-            field.choice(&JACOBIANS, problems)
-        });
+    let jacobian = match section.get("jacobian") {
+        Some(field) => field.choice(&JACOBIANS, problems),
+        None if kind == Some(Kind::Hermite) => Some(Jacobian::Reuse),
+        None => Some(Jacobian::EveryStep),
+    };
     let iterations = match section.get("iterations") {
         Some(field) => field
             .section(problems)

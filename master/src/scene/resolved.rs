@@ -26,7 +26,7 @@ pub struct Coupling {
     pub macro_step: f64,
     /// Increments of the finite differences. Default automatic.
     pub increment: Increment,
-    /// How long columns of the coupling Jacobian are used. Default every-step.
+    /// How long columns of the coupling Jacobian are used. Default every-step, with Hermite coupling reuse.
     pub jacobian: Jacobian,
     /// Corrections until they change nothing of note; absent: one, as in S1.
     pub iterations: Option<Iterations>,
@@ -103,6 +103,11 @@ impl Method {
     /// Whether the coupling variables at the end of every macro step are predicted and corrected.
     pub fn is_corrected(&self) -> bool {
         matches!(self, Self::Baumgarte { .. } | Self::Weighted { .. })
+    }
+
+    /// Whether columns of the coupling Jacobian may stay in use from step to step.
+    pub fn keeps_columns(&self) -> bool {
+        self.is_corrected() || matches!(self, Self::Hermite { .. })
     }
 }
 

@@ -31,8 +31,9 @@ mod variant;
 
 use super::columns::{Columns, Look};
 use super::condition::{SingularRow, check_finite};
-use super::corrector::Corrector;
+use super::corrector::{Again, Corrector};
 use super::layout::Over;
+use super::measure::{Change, Measure};
 use super::promise::Promise;
 use super::solve::{LinearSolver, SingularColumn};
 use super::system::{Point, System};
@@ -68,10 +69,19 @@ pub struct Hermite {
     solver: LinearSolver,
     start_solver: LinearSolver,
     sample: Sample,
+    /// The corrected curves of the last step.
+    settled: Sample,
     memory: Vec<f64>,
     change: Vec<f64>,
     accelerations: Vec<f64>,
     promise: Promise,
+    /// Whether the look-ahead is the first one over its step.
+    is_first: bool,
+    /// Length of the step to which the columns belong.
+    columns_of: f64,
+    measure: Measure,
+    /// Largest change of the unknowns of each variable.
+    changes: Vec<f64>,
 }
 
 /// The conditions at one end of the step and the columns of the workers for them.
@@ -111,6 +121,7 @@ impl Hermite {
         let start = Linear::new(increment, Ahead::Now, parts, Unknowns::ends(layout));
         let start_solver = LinearSolver::new(start.system.pattern());
         let sample = Sample::new(&unknowns, size);
+        let settled = Sample::new(&unknowns, size);
         let change = vec![0.0; unknowns.len()];
         let end = Linear::new(increment, Ahead::Step, parts, unknowns);
         let stack = Stack::new(layout, variant, &end.system, &start.system);
@@ -127,10 +138,15 @@ impl Hermite {
             start_solver,
             stack,
             sample,
+            settled,
             memory: vec![0.0; size],
             change,
             accelerations: vec![0.0; size],
             promise: Promise::new(size),
+            is_first: true,
+            columns_of: 0.0,
+            measure: Measure::new(layout),
+            changes: vec![0.0; size],
         }
     }
 
@@ -163,6 +179,10 @@ impl Hermite {
         self.change.copy_from_slice(change);
         self.arcs.change(&self.change);
         self.sample.take(&self.arcs);
+        largest_changes(self.end.system.unknowns(), &self.change, &mut self.changes);
+        if self.is_first {
+            self.measure.note(&self.changes);
+        }
         self.foresee_accelerations(step.length);
         check_finite(self.sample.ends(), parts, step)
     }
@@ -204,6 +224,11 @@ impl Corrector for Hermite {
             with_columns,
         };
         self.end.columns.request(parts, look, &mut self.memory);
+        self.is_first = true;
+        self.promise.forget();
+        if with_columns {
+            self.columns_of = step.length;
+        }
         if self.variant.starts_anew() && with_columns {
             self.request_evaluation(parts, step.start);
         } else {
@@ -222,7 +247,10 @@ impl Corrector for Hermite {
         let (end, start) = (&self.end.system, &self.start.system);
         self.stack.assemble_jacobian(end, start, step.length);
         self.stack.assemble_end(end, step.length);
-        self.stack.assemble_start(start);
+        if self.is_first {
+            // The accelerations are linear in the multipliers: the first correction meets these conditions.
+            self.stack.assemble_start(start);
+        }
         self.promise.take(end);
         self.solve(parts, step)
     }
@@ -256,6 +284,61 @@ impl Corrector for Hermite {
             self.refine_multipliers();
         }
         self.promise.judge(&self.end.system, parts, &self.change)
+    }
+
+    fn again(&mut self) -> Option<&mut dyn Again> {
+        Some(self)
+    }
+}
+
+impl Again for Hermite {
+    fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
+        self.promise.remember(&self.end.system, &self.change);
+        self.is_first = false;
+        parts.prepare_pass(step);
+        parts.forgo_evaluation();
+        let look = Look {
+            predicted: &self.arcs,
+            raised: &self.arcs,
+            ends: self.sample.ends(),
+            with_columns,
+        };
+        self.end.columns.request(parts, look, &mut self.memory);
+        if with_columns {
+            self.columns_of = step.length;
+        }
+    }
+
+    fn last_change(&self) -> Change {
+        self.measure.of(&self.changes, self.sample.ends())
+    }
+
+    fn has_columns(&self, step: MacroStep) -> bool {
+        self.columns_of == step.length
+    }
+
+    /// The solution for the conditions at the outputs after the advance, with the matrix of the correction.
+    fn remainder(&mut self, parts: &Parts) -> f64 {
+        let step = self.before.length();
+        self.settled.take(&self.before);
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+        let point = self.settled.point(step, self.before.attitudes());
+        let system = &mut self.end.system;
+        system.assemble_residuals(&parts.layout, outputs, point);
+        system.drop_rounding(&parts.layout, point);
+        self.stack.assemble_end(system, step);
+        let remaining = self.stack.rhs();
+        self.solver.solve_again(remaining);
+        largest_changes(system.unknowns(), remaining, &mut self.changes);
+        self.measure.of(&self.changes, self.settled.ends()).of_usual
+    }
+}
+
+/// Largest absolute change of the unknowns of every variable.
+fn largest_changes(unknowns: &Unknowns, change: &[f64], largest: &mut [f64]) {
+    for (variable, largest) in largest.iter_mut().enumerate() {
+        let own = change[unknowns.of(variable)].iter();
+        *largest = own.fold(0.0, |most, change| most.max(change.abs()));
     }
 }
 

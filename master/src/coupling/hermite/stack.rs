@@ -125,10 +125,16 @@ impl Stack {
 
     /// The Jacobian and minus the conditions, the latter in memory that may be written over.
     pub fn equation(&mut self) -> (&Pattern, &[f64], &mut [f64]) {
+        self.rhs();
+        (&self.pattern, &self.jacobian, &mut self.rhs)
+    }
+
+    /// Minus the conditions, in memory that may be written over.
+    pub fn rhs(&mut self) -> &mut [f64] {
         for (rhs, g) in self.rhs.iter_mut().zip(&self.residual) {
             *rhs = -g;
         }
-        (&self.pattern, &self.jacobian, &mut self.rhs)
+        &mut self.rhs
     }
 }
 
