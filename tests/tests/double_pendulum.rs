@@ -61,6 +61,33 @@ fn errors(trajectory: &Trajectory) -> [f64; 3] {
     .map(|error| error.normalised())
 }
 
+/// The solver's tolerance would return in the multipliers divided by H^2: 6e-3 here. Its errors in prediction, columns and
+/// advance are the same, so what is left of the conditions is what the linearisation leaves with any solver.
+#[test]
+fn hermite_coupling_meets_its_conditions_at_any_tolerance_of_the_solver() {
+    for variant in ["apv", "c0pv", "c0pva", "av"] {
+        let coupling = format!("method=hermite variant={variant} macro_step=1.25e-3");
+        let largest = |solver: &str| {
+            let scene = with_settings(SCENE, &coupling, &[solver, "scene.t_end=0.2"]);
+            let trajectory = run(&scene, Place::InProcess);
+            ["x", "y"].map(|part| {
+                let residuals = trajectory.column(&format!("hinge.residual.velocity.{part}"));
+                residuals
+                    .into_iter()
+                    .fold(0.0, |largest: f64, one| largest.max(one.abs()))
+            })
+        };
+        let precise = largest(SOLVER);
+        let default = largest("subsystem.*.solver={ kind = \"radau5\" }");
+        for (precise, default) in precise.into_iter().zip(default) {
+            assert!(
+                default < 1.2 * precise,
+                "{variant}: residual of the velocities {default:e}, with a precise solver {precise:e}"
+            );
+        }
+    }
+}
+
 #[test]
 fn the_initial_multipliers_are_those_of_the_consistent_start() {
     let start = trajectory("weighted index=1 degree=0", 1e-3);

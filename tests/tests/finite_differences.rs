@@ -102,7 +102,10 @@ struct Noisy;
 
 impl Model for Noisy {
     fn describe(&self) -> v1::Model {
-        Oscillator.describe()
+        let mut model = Oscillator.describe();
+        let capabilities = model.capabilities.get_or_insert_default();
+        capabilities.repeats_step_sequence = false;
+        model
     }
 
     fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {

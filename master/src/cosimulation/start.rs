@@ -77,8 +77,10 @@ impl CoSimulation {
             .collect();
         let mut refusals = Refusals::default();
         for (number, subsystem) in subsystems.iter_mut().enumerate() {
+            let model = &models[number];
+            let capabilities = model.capabilities.unwrap_or_default();
+            subsystem.repeats_steps = capabilities.repeats_step_sequence;
             if let Err(error) = subsystem.initialize(requests[number].clone()) {
-                let model = &models[number];
                 refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
             }
         }

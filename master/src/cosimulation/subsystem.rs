@@ -42,6 +42,8 @@ pub struct Subsystem {
     pub(crate) outputs: Vec<f64>,
     /// Error tolerance of the solver, if it has one.
     pub(crate) tolerance: Option<f64>,
+    /// Whether its perturbed steps repeat the internal steps of the step that they are compared with.
+    pub(crate) repeats_steps: bool,
     /// What the solver did so far.
     pub(crate) work: v1::Work,
     /// What it was asked for so far.
@@ -66,6 +68,7 @@ impl Subsystem {
             coupling_outputs: 0,
             outputs: Vec::new(),
             tolerance: None,
+            repeats_steps: false,
             work: v1::Work::default(),
             asked: Integrations::default(),
             looks_ahead_for: Cause::Predictor,
@@ -81,6 +84,11 @@ impl Subsystem {
     /// Whether the coupling reads outputs of it. Otherwise it is never asked to look ahead.
     pub(crate) fn is_read(&self) -> bool {
         self.coupling_outputs > 0
+    }
+
+    /// Size of the errors in a step and in a perturbed one that do not cancel in their difference, if it is more than rounding.
+    pub(crate) fn noise(&self) -> Option<f64> {
+        self.tolerance.filter(|_| !self.repeats_steps)
     }
 
     /// Which way the exchange takes.

@@ -13,8 +13,8 @@ use crate::signal::Curves;
 /// and stands above the noise of a solver with step-size control.
 const AUTOMATIC: f64 = 1e-3;
 
-/// A response to an increment stands at least this many solver tolerances above zero.
-const ABOVE_TOLERANCE: f64 = 1e3;
+/// A response to an increment stands at least this many times above the noise of the worker.
+const ABOVE_NOISE: f64 = 1e3;
 
 /// Relative increment of an exchanged variable when it is chosen automatically: its influence is not linear.
 const AUTOMATIC_EXCHANGED: f64 = 1e-6;
@@ -29,6 +29,8 @@ pub struct Columns {
     of_input: Vec<Range<usize>>,
     /// Number of columns of each subsystem.
     of_subsystem: Vec<usize>,
+    /// Places of the markers' positions in the coupling outputs of each subsystem.
+    positions: Vec<Vec<usize>>,
     /// Whether the last look-ahead was asked for columns that were not taken yet.
     are_fresh: bool,
     carriage: Carriage,
@@ -56,6 +58,7 @@ impl Columns {
             columns: Vec::new(),
             of_input: Vec::new(),
             of_subsystem: vec![0; layout.outputs.len()],
+            positions: positions_of(layout),
             are_fresh: false,
             carriage: Carriage::new(layout),
         };
@@ -104,7 +107,10 @@ impl Columns {
             over.curves = look.raised;
             for (raised, column) in self.columns[columns.clone()].iter_mut().enumerate() {
                 if let Some(place) = column.place {
-                    column.choose_increment(self.rule, end, subsystem.tolerance);
+                    let audible = subsystem
+                        .noise()
+                        .map(|noise| column.audible(noise, &self.positions[input.subsystem]));
+                    column.choose_increment(self.rule, end, audible);
                     let signal = subsystem.perturbed_signal(self.ahead, place, input.place);
                     input.raised_signal(&mut over, raised, column.increment, signal);
                 }
@@ -170,30 +176,42 @@ impl Column {
 
     /// Chooses the increment for the next step, in which the input is predicted as `input`.
     ///
-    /// S1 Sect. 3.3: `eps max(1, |u|)`. Automatically, `eps = 1e-3` for loads and `1e-6` for exchanged variables, and if the
-    /// worker reports a tolerance the increment of a load is large enough for the last known response to stand a thousand
-    /// tolerances high.
-    pub fn choose_increment(&mut self, rule: Increment, input: f64, tolerance: Option<f64>) {
+    /// S1 Sect. 3.3: `eps max(1, |u|)`. Automatically, `eps = 1e-3` for loads and `1e-6` for exchanged variables, and the
+    /// increment of a load is at least `audible`, if that is given.
+    pub fn choose_increment(&mut self, rule: Increment, input: f64, audible: Option<f64>) {
         let scale = input.abs().max(1.0);
         self.increment = match rule {
             Increment::Relative(epsilon) => epsilon * scale,
             Increment::Automatic if self.is_load => {
-                (AUTOMATIC * scale).max(self.audible(tolerance))
+                (AUTOMATIC * scale).max(audible.unwrap_or_default())
             }
             Increment::Automatic => AUTOMATIC_EXCHANGED * scale,
         };
     }
 
-    fn audible(&self, tolerance: Option<f64>) -> f64 {
-        let response = self
-            .derivatives
-            .first()
-            .map_or(0.0, |derivative| derivative.abs());
-        match tolerance {
-            Some(tolerance) if response > 0.0 => ABOVE_TOLERANCE * tolerance / response,
-            _ => 0.0,
+    /// The increment under which the largest of the last known responses of the outputs `positions` stands a thousand times
+    /// above `noise`; 0 if none responds. Single outputs may hardly respond, such as a coordinate across a force: an
+    /// increment after them would leave the range in which a load acts linearly.
+    fn audible(&self, noise: f64, positions: &[usize]) -> f64 {
+        let derivatives = positions
+            .iter()
+            .filter_map(|&position| self.derivatives.get(position));
+        let response = derivatives.fold(0.0, |largest: f64, one| largest.max(one.abs()));
+        if response > 0.0 {
+            ABOVE_NOISE * noise / response
+        } else {
+            0.0
         }
     }
+}
+
+/// Places of the markers' positions in the coupling outputs of each subsystem.
+fn positions_of(layout: &Layout) -> Vec<Vec<usize>> {
+    let mut positions = vec![Vec::new(); layout.outputs.len()];
+    for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
+        positions[end.subsystem].extend(end.positions());
+    }
+    positions
 }
 
 #[cfg(test)]
@@ -203,19 +221,25 @@ mod tests {
     #[test]
     fn increments_follow_their_rule() {
         let mut column = Column {
-            derivatives: vec![5e-7],
+            // A force across the first coordinate, along the second; behind them a velocity.
+            derivatives: vec![-3e-13, -5e-7, 1e-3],
             increment: 0.0,
             is_load: true,
             place: None,
         };
-        column.choose_increment(Increment::Relative(1e-5), 333.0, Some(1e-8));
+        let audible = column.audible(1e-8, &[0, 1]);
+        assert!((audible * 5e-7 / 1e-8 - 1e3).abs() < 1e-9);
+        assert_eq!(column.audible(1e-8, &[]), 0.0);
+        column.choose_increment(Increment::Relative(1e-5), 333.0, Some(audible));
         assert_eq!(column.increment, 1e-5 * 333.0);
         column.choose_increment(Increment::Automatic, 0.0, None);
         assert_eq!(column.increment, 1e-3);
-        column.choose_increment(Increment::Automatic, 333.0, Some(1e-8));
-        assert!((column.increment * 5e-7 / 1e-8 - 1e3).abs() < 1e-9);
+        column.choose_increment(Increment::Automatic, 333.0, Some(audible));
+        assert_eq!(column.increment, audible);
+        column.choose_increment(Increment::Automatic, 1e6 * audible, Some(audible));
+        assert_eq!(column.increment, 1e3 * audible);
         column.is_load = false;
-        column.choose_increment(Increment::Automatic, 5.0, Some(1e-8));
+        column.choose_increment(Increment::Automatic, 5.0, Some(audible));
         assert_eq!(column.increment, 1e-6 * 5.0);
     }
 
