@@ -4,7 +4,7 @@ use linchpin_proto::v1;
 
 use crate::coupling::layout::{DrivenInput, Layout, LoadForm, Source};
 use crate::error::RunError;
-use crate::scene::{self, Loads, Method, Scene};
+use crate::scene::{self, Jacobian, Loads, Method, Scene};
 
 /// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
 const LOAD_DEGREE: usize = 5;
@@ -12,10 +12,16 @@ const LOAD_DEGREE: usize = 5;
 /// How each subsystem takes loads whose direction turns with the bodies.
 pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<LoadForm>, RunError> {
     let coupling = &scene.coupling;
+    // Responses to force and moment turn with the body; those to a multiplier also turn with its partner, so they grow old sooner.
+    let turns_with_the_body =
+        matches!(coupling.method, Method::Hermite { .. }) && coupling.jacobian == Jacobian::Reuse;
     let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
         let capabilities = model.capabilities.unwrap_or_default();
         match coupling.loads {
-            Loads::Automatic | Loads::Worker if capabilities.joint_loads => Ok(LoadForm::Joint),
+            Loads::Automatic if capabilities.joint_loads && !turns_with_the_body => {
+                Ok(LoadForm::Joint)
+            }
+            Loads::Worker if capabilities.joint_loads => Ok(LoadForm::Joint),
             Loads::Worker => {
                 let message = format!(
                     "the model \"{}\" of subsystem \"{}\" cannot evaluate loads of joints",
