@@ -21,6 +21,8 @@ pub struct Trajectory {
     pub rows: Vec<Vec<f64>>,
     /// Integrations over a macro step that the run took.
     pub integrations: u64,
+    /// Attempts at a macro step that were repeated.
+    pub rejected: u64,
 }
 
 impl Trajectory {
@@ -68,7 +70,10 @@ impl Recorder for Trajectory {
 pub fn try_run(scene: &Scene, place: Place, options: &Options) -> Result<Trajectory, RunError> {
     let mut trajectory = Trajectory::default();
     match simulate(scene, &Connector::new(place), options, &mut trajectory) {
-        Ok(statistics) => trajectory.integrations = statistics.integrations,
+        Ok(statistics) => {
+            trajectory.integrations = statistics.integrations;
+            trajectory.rejected = statistics.steps.map_or(0, |steps| steps.rejected);
+        }
         Err(SimulateError::Run(error)) => return Err(error),
         Err(SimulateError::Record(never)) => match never {},
     }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::layout::{Layout, Over};
+use super::layout::{DrivenInput, Layout, Over};
 use super::unknowns::Unknowns;
 use crate::cosimulation::{Ahead, Parts};
 use crate::scene::Increment;
@@ -63,9 +63,8 @@ impl Columns {
                 let place = input.is_perturbed.then_some(*count);
                 *count += usize::from(input.is_perturbed);
                 own.columns.push(Column {
-                    is_load: input.drives_load(layout.rows.len()),
                     place,
-                    ..Column::default()
+                    ..Column::new(input, layout)
                 });
             }
             own.of_input.push(numbers);
@@ -98,10 +97,11 @@ impl Columns {
                 continue;
             }
             let end = input.value(look.ends, look.raised.attitudes());
+            let length = look.raised.length();
             over.curves = look.raised;
             for (raised, column) in self.columns[columns.clone()].iter_mut().enumerate() {
                 if let Some(place) = column.place {
-                    column.choose_increment(self.rule, end, subsystem.tolerance);
+                    column.choose_increment(self.rule, end, length, subsystem.tolerance);
                     let signal = subsystem.perturbed_signal(self.ahead, place, input.place);
                     input.raised_signal(&mut over, raised, column.increment, signal);
                 }
@@ -116,6 +116,22 @@ impl Columns {
                 let look = subsystem.look(self.ahead);
                 look.perturbed.resize_with(columns, Default::default);
             }
+        }
+    }
+
+    /// The step of this length is done: its responses are what increments are chosen by.
+    pub fn keep_responses(&mut self, length: f64) {
+        for column in &mut self.columns {
+            let value = column.derivatives.first().copied().unwrap_or(0.0);
+            let newest = Response { value, length };
+            column.responses = [newest, column.responses[0]];
+        }
+    }
+
+    /// Takes the last [`Columns::keep_responses`] back.
+    pub fn forget_responses(&mut self) {
+        for column in &mut self.columns {
+            column.responses[0] = column.responses[1];
         }
     }
 
@@ -146,9 +162,38 @@ pub struct Column {
     pub is_load: bool,
     /// Place among the perturbed steps of its subsystem; absent if the input is not perturbed.
     pub place: Option<usize>,
+    /// Responses of the first coupling output in the last two steps that were done, newest first.
+    responses: [Response; 2],
+}
+
+/// Response of an output to a unit of an input over a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Response {
+    value: f64,
+    length: f64,
+}
+
+impl Response {
+    /// Its size over a step of another length: that of a position to a load goes with the square.
+    fn over(&self, length: f64) -> f64 {
+        let ratio = if length == self.length {
+            1.0
+        } else {
+            length / self.length
+        };
+        self.value.abs() * ratio * ratio
+    }
 }
 
 impl Column {
+    /// The column of an input, not known yet.
+    pub fn new(input: &DrivenInput, layout: &Layout) -> Self {
+        Self {
+            is_load: input.drives_load(layout.rows.len()),
+            ..Self::default()
+        }
+    }
+
     /// Takes the difference quotient of two answers of a worker.
     pub fn difference(&mut self, predicted: &[f64], perturbed: &[f64]) {
         self.derivatives.clear();
@@ -157,27 +202,30 @@ impl Column {
             .extend(quotients.map(|(y, raised)| (raised - y) / self.increment));
     }
 
-    /// Chooses the increment for the next step, in which the input is predicted as `input`.
+    /// Chooses the increment for the next step, `length` long, in which the input is predicted as `input`.
     ///
     /// S1 Sect. 3.3: `eps max(1, |u|)`. Automatically, `eps = 1e-3` for loads and `1e-6` for exchanged variables, and if the
     /// worker reports a tolerance the increment of a load is large enough for the last known response to stand a thousand
     /// tolerances high.
-    pub fn choose_increment(&mut self, rule: Increment, input: f64, tolerance: Option<f64>) {
+    pub fn choose_increment(
+        &mut self,
+        rule: Increment,
+        input: f64,
+        length: f64,
+        tolerance: Option<f64>,
+    ) {
         let scale = input.abs().max(1.0);
         self.increment = match rule {
             Increment::Relative(epsilon) => epsilon * scale,
             Increment::Automatic if self.is_load => {
-                (AUTOMATIC * scale).max(self.audible(tolerance))
+                (AUTOMATIC * scale).max(self.audible(length, tolerance))
             }
             Increment::Automatic => AUTOMATIC_EXCHANGED * scale,
         };
     }
 
-    fn audible(&self, tolerance: Option<f64>) -> f64 {
-        let response = self
-            .derivatives
-            .first()
-            .map_or(0.0, |derivative| derivative.abs());
+    fn audible(&self, length: f64, tolerance: Option<f64>) -> f64 {
+        let response = self.responses[0].over(length);
         match tolerance {
             Some(tolerance) if response > 0.0 => ABOVE_TOLERANCE * tolerance / response,
             _ => 0.0,
@@ -192,29 +240,31 @@ mod tests {
     #[test]
     fn increments_follow_their_rule() {
         let mut column = Column {
-            derivatives: vec![5e-7],
-            increment: 0.0,
             is_load: true,
-            place: None,
+            responses: [Response {
+                value: 5e-7,
+                length: 1e-3,
+            }; 2],
+            ..Column::default()
         };
-        column.choose_increment(Increment::Relative(1e-5), 333.0, Some(1e-8));
+        column.choose_increment(Increment::Relative(1e-5), 333.0, 1e-3, Some(1e-8));
         assert_eq!(column.increment, 1e-5 * 333.0);
-        column.choose_increment(Increment::Automatic, 0.0, None);
+        column.choose_increment(Increment::Automatic, 0.0, 1e-3, None);
         assert_eq!(column.increment, 1e-3);
-        column.choose_increment(Increment::Automatic, 333.0, Some(1e-8));
+        column.choose_increment(Increment::Automatic, 333.0, 1e-3, Some(1e-8));
         assert!((column.increment * 5e-7 / 1e-8 - 1e3).abs() < 1e-9);
+        column.choose_increment(Increment::Automatic, 333.0, 2e-3, Some(1e-8));
+        assert!((column.increment * 2e-6 / 1e-8 - 1e3).abs() < 1e-9);
         column.is_load = false;
-        column.choose_increment(Increment::Automatic, 5.0, Some(1e-8));
+        column.choose_increment(Increment::Automatic, 5.0, 1e-3, Some(1e-8));
         assert_eq!(column.increment, 1e-6 * 5.0);
     }
 
     #[test]
     fn a_difference_is_per_unit_of_the_input() {
         let mut column = Column {
-            derivatives: Vec::new(),
             increment: 0.5,
-            is_load: true,
-            place: None,
+            ..Column::default()
         };
         column.difference(&[1.0, 2.0], &[1.5, 0.0]);
         assert_eq!(column.derivatives, [1.0, -4.0]);

@@ -5,7 +5,7 @@ use super::system::System;
 use crate::cosimulation::Parts;
 use crate::error::RunError;
 use crate::joint::Level;
-use crate::scene::{Index, Method};
+use crate::scene::{Formula, Index, Method};
 use crate::time::MacroStep;
 
 /// The equation that the corrected multipliers solve, linearised about the prediction.
@@ -14,9 +14,9 @@ pub enum Condition {
     /// `g + beta g' + gamma g'' = 0` (S1 eqs. 15, 68).
     Baumgarte {
         /// s
-        beta: f64,
+        beta: Formula,
         /// s^2
-        gamma: f64,
+        gamma: Formula,
     },
     /// Weighted mean of the multipliers that solve `g = 0`, `g' = 0` and `g'' = 0` (S1 eqs. 23, 76).
     Weighted {
@@ -79,16 +79,17 @@ pub fn level_of(method: &Method) -> Level {
 }
 
 impl Condition {
-    /// Solves the linearised condition for the change of the multipliers from their prediction.
+    /// Solves the linearised condition at the end of a step of this length for the change of the multipliers from their prediction.
     pub fn solve(
         &self,
+        length: f64,
         system: &mut System,
         solver: &mut LinearSolver,
         change: &mut [f64],
     ) -> Result<(), SingularRow> {
         match *self {
             Self::Baumgarte { beta, gamma } => {
-                system.combine([1.0, beta, gamma]);
+                system.combine([1.0, beta.at(length), gamma.at(length)]);
                 let level = system.level();
                 let (pattern, jacobian, own) = system.combined_equation();
                 solver

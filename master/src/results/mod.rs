@@ -7,5 +7,5 @@ mod verdict;
 
 pub use guard::Guard;
 pub use row::{Drawn, Row};
-pub use statistics::{JointResiduals, Statistics, SubsystemStatistics};
+pub use statistics::{JointResiduals, Statistics, StepStatistics, SubsystemStatistics};
 pub use verdict::{Defect, Verdict};
