@@ -8,7 +8,7 @@ use super::degrees::{check_degrees, load_forms};
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
 use super::refusal::{Refusals, refuse_setup};
-use super::step_size::StepSize;
+use super::step_size::{plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
@@ -376,41 +376,4 @@ fn history_of(
 /// The scene has checked that the time span is at least one step long.
 fn first_step(plan: &TimePlan) -> MacroStep {
     plan.step().unwrap_or_else(|| super::at_start(plan.t()))
-}
-
-fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
-    let (start, end, first) = (scene.t_start, scene.t_end, scene.coupling.macro_step);
-    match (&options.step_lengths, scene.coupling.step_control) {
-        (Some(lengths), _) => TimePlan::given(start, end, lengths.clone()),
-        (None, Some(_)) => TimePlan::variable(start, end, first),
-        (None, None) => TimePlan::equidistant(start, end, first),
-    }
-}
-
-fn step_size_of(
-    scene: &Scene,
-    options: &Options,
-    parts: &Parts,
-) -> Result<Option<StepSize>, RunError> {
-    let Some(control) = scene.coupling.step_control else {
-        return Ok(None);
-    };
-    if options.step_lengths.is_some() {
-        return Ok(None);
-    }
-    match scene.coupling.method {
-        Method::Baumgarte { .. } | Method::Weighted { .. } | Method::Hermite { .. } => Ok(Some(
-            StepSize::new(control, scene.coupling.macro_step, parts),
-        )),
-        Method::Explicit { .. }
-        | Method::Penalty { .. }
-        | Method::Jacobi { .. }
-        | Method::GaussSeidel { .. } => {
-            let message = "the macro step of explicit, penalty, jacobi and gauss-seidel does not vary: they have no corrector that tells an error before a step is taken";
-            let help = "choose coupling.method = \"hermite\", \"weighted\" or \"baumgarte\", or leave coupling.tolerance out";
-            Err(scene
-                .error("coupling.tolerance", message, Some(help.into()))
-                .into())
-        }
-    }
 }

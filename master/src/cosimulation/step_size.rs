@@ -1,11 +1,11 @@
 //! The length of a variable macro step: accepted or repeated, and how long the next one is.
 
-use crate::cosimulation::Parts;
+use crate::cosimulation::{Options, Parts};
 use crate::coupling::error_estimate::{ErrorScales, Estimate};
 use crate::error::RunError;
 use crate::results::StepStatistics;
-use crate::scene::StepControl;
-use crate::time::MacroStep;
+use crate::scene::{Method, Scene, StepControl};
+use crate::time::{MacroStep, TimePlan};
 
 /// Share of the step that would just be accepted.
 const SAFETY: f64 = 0.9;
@@ -155,5 +155,44 @@ impl StepSize {
     /// Takes the outputs at the macro point that is reached.
     pub fn observe(&mut self, parts: &Parts) {
         self.scales.observe(parts);
+    }
+}
+
+/// Where the macro points lie: as the scene says, unless a study gives the steps.
+pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
+    let (start, end, first) = (scene.t_start, scene.t_end, scene.coupling.macro_step);
+    match (&options.step_lengths, scene.coupling.step_control) {
+        (Some(lengths), _) => TimePlan::given(start, end, lengths.clone()),
+        (None, Some(_)) => TimePlan::variable(start, end, first),
+        (None, None) => TimePlan::equidistant(start, end, first),
+    }
+}
+
+/// The control of the steps, if the scene asks for one; outputs at the start are known.
+pub(super) fn step_size_of(
+    scene: &Scene,
+    options: &Options,
+    parts: &Parts,
+) -> Result<Option<StepSize>, RunError> {
+    let Some(control) = scene.coupling.step_control else {
+        return Ok(None);
+    };
+    if options.step_lengths.is_some() {
+        return Ok(None);
+    }
+    match scene.coupling.method {
+        Method::Baumgarte { .. } | Method::Weighted { .. } | Method::Hermite { .. } => Ok(Some(
+            StepSize::new(control, scene.coupling.macro_step, parts),
+        )),
+        Method::Explicit { .. }
+        | Method::Penalty { .. }
+        | Method::Jacobi { .. }
+        | Method::GaussSeidel { .. } => {
+            let message = "the macro step of explicit, penalty, jacobi and gauss-seidel does not vary: they have no corrector that tells an error before a step is taken";
+            let help = "choose coupling.method = \"hermite\", \"weighted\" or \"baumgarte\", or leave coupling.tolerance out";
+            Err(scene
+                .error("coupling.tolerance", message, Some(help.into()))
+                .into())
+        }
     }
 }
