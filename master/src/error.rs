@@ -145,6 +145,24 @@ pub enum RunError {
         /// Last change over the one before.
         rate: f64,
     },
+    /// No step is short enough.
+    #[error(
+        "no macro step from t = {t} s is short enough: with H = {step} s, which is coupling.least_step, the error of {variable} is \
+         estimated as {error:e} times what coupling.tolerance = {tolerance:e} allows; try a smaller coupling.least_step, a larger coupling.tolerance, a larger \
+         coupling.absolute_tolerance if {variable} is small, or tighter solver tolerances"
+    )]
+    LeastStep {
+        /// Start of the macro step.
+        t: f64,
+        /// Its length.
+        step: f64,
+        /// Error over what is allowed.
+        error: f64,
+        /// `coupling.tolerance`
+        tolerance: f64,
+        /// What has the error.
+        variable: String,
+    },
     /// The coupling conditions do not determine the coupling variables.
     #[error(
         "{unknown} is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \

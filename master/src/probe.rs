@@ -203,7 +203,7 @@ impl<'a, 'b> Probe<'a, 'b> {
 
     /// The state after a number of macro steps from `state`.
     fn after(&mut self, steps: usize, state: &[f64]) -> Result<Vec<f64>, ProbeError> {
-        let mut scene = self.scene.clone();
+        let mut scene = self.scene.clone().with_fixed_steps();
         scene.t_end = steps as f64 * scene.coupling.macro_step;
         let mut multipliers = vec![vec![0.0; scene.joints.len()]; self.memory];
         for (coordinate, &value) in self.coordinates.iter().zip(state) {

@@ -21,6 +21,8 @@ pub struct Trajectory {
     pub rows: Vec<Vec<f64>>,
     /// Integrations over a macro step that the run took.
     pub integrations: u64,
+    /// Attempts at a macro step that were repeated.
+    pub rejected: u64,
     /// Counts and times of the run.
     pub statistics: Statistics,
 }
@@ -72,6 +74,7 @@ pub fn try_run(scene: &Scene, place: Place, options: &Options) -> Result<Traject
     match simulate(scene, &Connector::new(place), options, &mut trajectory) {
         Ok(statistics) => {
             trajectory.integrations = statistics.integrations;
+            trajectory.rejected = statistics.steps.as_ref().map_or(0, |steps| steps.rejected);
             trajectory.statistics = statistics;
         }
         Err(SimulateError::Run(error)) => return Err(error),

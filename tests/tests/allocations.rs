@@ -69,6 +69,13 @@ fn a_macro_step_allocates_nothing() {
     for method in [
         &["coupling.degree=0"][..],
         &[
+            "coupling.method=weighted",
+            "coupling.degree=1",
+            "coupling.index=1",
+            "coupling.tolerance=1e-8",
+        ],
+        &["coupling.method=hermite", "coupling.tolerance=1e-10"],
+        &[
             "coupling.method=baumgarte",
             "coupling.index=1",
             "coupling.beta=2H",

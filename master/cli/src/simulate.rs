@@ -23,8 +23,8 @@ pub trait Recorder {
     /// One recorded macro point, the first one included.
     fn record(&mut self, row: &Row) -> Result<(), Self::Error>;
 
-    /// After every macro step, recorded or not.
-    fn progress(&mut self, _done: usize, _all: usize, _t: f64) {}
+    /// After every macro step, recorded or not: the time that is reached.
+    fn progress(&mut self, _t: f64) {}
 }
 
 /// A run that ended early.
@@ -59,7 +59,6 @@ pub fn simulate<R: Recorder>(
     };
     let mut simulation = CoSimulation::start(scene, &mut connect, options)
         .map_err(|error| stopped(scene.t_start, error))?;
-    let all = simulation.grid().len();
     if let Some(mechanism) = simulation.mechanism() {
         let taken = recorder.mechanism(mechanism);
         taken.map_err(SimulateError::Record)?;
@@ -74,14 +73,14 @@ pub fn simulate<R: Recorder>(
         .macro_step()
         .map_err(|error| stopped(simulation.t(), error))?
     {
-        let done = simulation.steps_done();
-        if done % scene.output.every == 0 || done == all {
+        let is_finished = simulation.is_finished();
+        if is_finished || simulation.steps_done() % scene.output.every == 0 {
             recorder
                 .record(simulation.row())
                 .map_err(SimulateError::Record)?;
         }
-        recorder.progress(done, all, simulation.t());
-        if interrupt.is_requested() && done < all {
+        recorder.progress(simulation.t());
+        if interrupt.is_requested() && !is_finished {
             let t = simulation.t();
             return Err(RunError::Interrupted { t }.into());
         }

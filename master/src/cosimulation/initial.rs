@@ -185,11 +185,8 @@ impl InitialState {
             if unknowns.columns(number).is_empty() {
                 continue;
             }
-            let mut column = Column {
-                increment: 1.0,
-                is_load: input.drives_load(layout.rows.len()),
-                ..Column::default()
-            };
+            let mut column = Column::new(input, layout);
+            column.increment = 1.0;
             let names = &layout.outputs[input.subsystem];
             if input.is_perturbed {
                 let mut inputs =

@@ -12,11 +12,12 @@ mod refusal;
 mod renewal;
 mod signal_loop;
 mod start;
+mod step_size;
 mod subsystem;
 mod tie;
 mod velocities;
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
 
@@ -33,12 +34,13 @@ use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Cause, Guard, Row, Statistics, Verdict};
 use crate::scene::Scene;
-use crate::time::{MacroGrid, MacroStep};
+use crate::time::{MacroStep, TimePlan};
 
 use refusal::refuse_setup;
 pub use renewal::Passes;
 use renewal::Renewal;
 pub use start::{Connect, Options, describe};
+use step_size::StepSize;
 pub(crate) use subsystem::exchange;
 
 /// A running co-simulation.
@@ -46,8 +48,9 @@ pub struct CoSimulation {
     parts: Parts,
     scheme: Scheme,
     renewal: Renewal,
-    grid: MacroGrid,
-    next: usize,
+    plan: TimePlan,
+    /// Present if the macro step varies.
+    step_size: Option<StepSize>,
     row: Row,
     mechanism: Option<Mechanism>,
     guard: Guard,
@@ -72,12 +75,26 @@ pub(crate) enum Scheme {
 
 /// What a method reports of a macro step.
 pub struct Outcome {
-    /// Verdict on the accepted step.
+    /// The step that was accepted.
+    pub step: MacroStep,
+    /// Verdict on it.
     pub verdict: Verdict,
-    /// Time in s that was spent on solving for the multipliers.
-    pub solving: f64,
+    /// Time that was spent on solving for the multipliers.
+    pub solving: Duration,
     /// How the corrections went.
     pub passes: Passes,
+}
+
+impl Outcome {
+    /// Of a step that no corrector has judged.
+    pub(crate) fn of_step(step: MacroStep, solving: Duration) -> Self {
+        Self {
+            step,
+            verdict: Verdict::Uncorrected,
+            solving,
+            passes: Passes::default(),
+        }
+    }
 }
 
 impl CoSimulation {
@@ -86,47 +103,63 @@ impl CoSimulation {
     /// The method corrects the multipliers, lets all workers advance and look ahead in one exchange; then the step is
     /// judged and its row is there to be recorded.
     pub fn macro_step(&mut self) -> Result<bool, RunError> {
-        let Some(step) = self.grid.step(self.next) else {
+        let Some(step) = self.plan.step() else {
             return Ok(false);
         };
-        let following = self.grid.step(self.next + 1);
         let started = Instant::now();
         let outcome = match &mut self.scheme {
             Scheme::Corrected(method) => {
-                let renewal = &mut self.renewal;
-                corrected::macro_step(&mut **method, &mut self.parts, renewal, step, following)?
+                let step_size = self.step_size.as_mut();
+                corrected::macro_step(
+                    &mut **method,
+                    &mut self.parts,
+                    &mut self.renewal,
+                    &mut self.plan,
+                    step,
+                    step_size,
+                )?
             }
             Scheme::Explicit(method) => method.macro_step(&mut self.parts, step)?,
             Scheme::Penalty(method) => method.macro_step(&mut self.parts, step)?,
             Scheme::Springs(method) => method.macro_step(&mut self.parts, step)?,
         };
-        self.row
-            .read(step.end, &self.parts, self.scheme.multipliers());
+        if !matches!(self.scheme, Scheme::Corrected(_)) {
+            self.plan.move_on(self.plan.following(step.length));
+        }
+        let step = outcome.step;
+        self.row.read(step, &self.parts, self.scheme.multipliers());
+        if let Some(step_size) = &mut self.step_size {
+            step_size.observe(&self.parts);
+        }
         self.guard.judge(step, &self.row, &self.parts.layout)?;
         self.statistics
             .count(&outcome, started.elapsed(), &self.row);
-        self.next += 1;
         Ok(true)
     }
 
     /// Time of the present macro point.
     pub fn t(&self) -> f64 {
-        self.grid.point(self.next)
+        self.plan.t()
     }
 
     /// Number of macro steps done.
     pub fn steps_done(&self) -> usize {
-        self.next
+        self.plan.steps_done()
+    }
+
+    /// Number of macro steps of the whole run; those done so far if the steps vary.
+    pub fn steps_planned(&self) -> usize {
+        self.plan.steps_planned()
+    }
+
+    /// Whether the end is reached.
+    pub fn is_finished(&self) -> bool {
+        self.plan.is_finished()
     }
 
     /// The subsystems in the order of the scene.
     pub fn subsystems(&self) -> &[Subsystem] {
         &self.parts.subsystems
-    }
-
-    /// The macro-time grid.
-    pub fn grid(&self) -> &MacroGrid {
-        &self.grid
     }
 
     /// Everything that is recorded of the present macro point.
@@ -148,6 +181,7 @@ impl CoSimulation {
     /// Counts, times and residuals so far.
     pub fn statistics(&self) -> Statistics {
         let mut statistics = self.statistics.clone();
+        statistics.steps = self.step_size.as_ref().map(|steps| *steps.statistics());
         for subsystem in &self.parts.subsystems {
             statistics.add_subsystem(subsystem);
         }
@@ -173,7 +207,7 @@ impl Parts {
     /// Makes every subsystem's next request advance over `step`; the signals are filled in by the method.
     pub(crate) fn prepare_advance(&mut self, step: MacroStep) {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
-            let advance = subsystem.request.advance.get_or_insert_default();
+            let advance = subsystem.advance_to_fill();
             advance.t = step.start;
             advance.step = step.length;
             let inputs = self.layout.inputs_of(number).len();
@@ -217,10 +251,17 @@ impl Parts {
 
     /// Makes every subsystem's next request look ahead over `step` once more, and do nothing else.
     pub(crate) fn prepare_pass(&mut self, step: MacroStep) {
+        self.forgo_advance();
         self.prepare_prediction(step.start, step.length);
         for subsystem in &mut self.subsystems {
-            subsystem.request.advance = None;
             subsystem.looks_ahead_for = Cause::Pass;
+        }
+    }
+
+    /// Makes no subsystem advance.
+    pub(crate) fn forgo_advance(&mut self) {
+        for subsystem in &mut self.subsystems {
+            subsystem.forgo_advance();
         }
     }
 

@@ -75,6 +75,11 @@ impl Renewal {
         wanted
     }
 
+    /// The step is looked ahead over afresh, with new columns.
+    pub fn renew(&mut self) {
+        self.come_next = true;
+    }
+
     /// After the first correction of a step.
     pub fn begin(&mut self, change: Change) {
         self.are_fresh = self.come_next;

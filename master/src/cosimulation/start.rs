@@ -3,15 +3,17 @@
 use linchpin_proto::v1::{self, value::Kind};
 use nalgebra::UnitQuaternion;
 
+use super::corrected::look_ahead;
 use super::degrees::{check_degrees, load_forms};
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
 use super::refusal::{Refusals, refuse_setup};
 use super::renewal::Renewal;
+use super::step_size::{plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
-use super::{CoSimulation, Parts, Scheme, Subsystem, exchange, velocities};
+use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
 use crate::coupling::condition::{Condition, level_of};
@@ -26,7 +28,7 @@ use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
 use crate::scene::{self, Jacobian, Method, Order, Scene};
 use crate::signal::{History, Variables};
-use crate::time::{MacroGrid, MacroStep};
+use crate::time::{MacroStep, TimePlan};
 
 /// Gives the connection to the worker of a subsystem.
 pub type Connect<'a> =
@@ -42,6 +44,8 @@ pub struct Options {
     /// Multipliers at past macro points in place of a start, newest first; the polynomials then have their full degree
     /// from the first step on.
     pub established: Option<Vec<Vec<f64>>>,
+    /// Macro steps of these lengths in s, as a run with variable steps has found them, in place of those of the scene.
+    pub step_lengths: Option<Vec<f64>>,
     /// Record the positions of all markers, also of those that no joint holds: a picture of the mechanism needs them.
     pub record_markers: bool,
 }
@@ -90,10 +94,11 @@ impl CoSimulation {
             velocities::choose(scene, &coupled, &models, &mut requests, &mut parts)?;
         let initial = initial_state(scene, &coupled, &parts, options)?;
         initial.read_outputs(scene.t_start, &mut parts)?;
-        let grid = MacroGrid::new(scene.t_start, scene.t_end, scene.coupling.macro_step);
-        let scheme = begin(scene, options, initial, &mut parts, &grid)?;
-        let mut row = Row::new(&parts);
-        row.read(scene.t_start, &parts, scheme.multipliers());
+        let plan = plan_of(scene, options);
+        let step_size = step_size_of(scene, options, &parts)?;
+        let scheme = begin(scene, options, initial, &mut parts, &plan)?;
+        let mut row = Row::new(&parts, scene.coupling.step_control.is_some());
+        row.read(super::at_start(scene.t_start), &parts, scheme.multipliers());
         panels::check(scene, &row)?;
         let mechanism = options
             .record_markers
@@ -109,8 +114,8 @@ impl CoSimulation {
             parts,
             scheme,
             renewal: Renewal::new(scene.coupling.jacobian, scene.coupling.iterations),
-            grid,
-            next: 0,
+            plan,
+            step_size,
             row,
             mechanism,
             guard,
@@ -286,7 +291,7 @@ fn begin(
     options: &Options,
     initial: InitialState,
     parts: &mut Parts,
-    grid: &MacroGrid,
+    plan: &TimePlan,
 ) -> Result<Scheme, RunError> {
     let coupling = &scene.coupling;
     let InitialState {
@@ -311,12 +316,12 @@ fn begin(
             let values = start.map_or(&values[..variables.degrees.len()], |start| start);
             let history = History::new(variables, values, attitudes);
             let method = Hermite::new(variant, coupling.increment, history, parts);
-            return look_ahead(Box::new(method), parts, first_step(grid));
+            return begin_corrected(Box::new(method), parts, plan);
         }
         Method::Explicit { mu } => {
             let history = History::new(variables, &values, attitudes);
             let mut method = Explicit::new(mu, coupling.increment, history, parts);
-            method.begin(parts, first_step(grid))?;
+            method.begin(parts, first_step(plan))?;
             return Ok(Scheme::Explicit(Box::new(method)));
         }
         Method::Penalty {
@@ -348,17 +353,16 @@ fn begin(
     };
     let history = history_of(scene, options, variables, &values, attitudes);
     let method = SemiImplicit::new(condition, coupling.increment, history, parts);
-    look_ahead(Box::new(method), parts, first_step(grid))
+    begin_corrected(Box::new(method), parts, plan)
 }
 
 /// Lets a predictor/corrector method look ahead over the first macro step.
-fn look_ahead(
+fn begin_corrected(
     mut method: Box<dyn Corrector>,
     parts: &mut Parts,
-    first: MacroStep,
+    plan: &TimePlan,
 ) -> Result<Scheme, RunError> {
-    method.request_prediction(parts, first, true)?;
-    exchange(&mut parts.subsystems, first)?;
+    look_ahead(&mut *method, parts, first_step(plan))?;
     Ok(Scheme::Corrected(method))
 }
 
@@ -378,7 +382,6 @@ fn history_of(
 }
 
 /// The scene has checked that the time span is at least one step long.
-fn first_step(grid: &MacroGrid) -> MacroStep {
-    grid.step(0)
-        .unwrap_or_else(|| super::at_start(grid.point(0)))
+fn first_step(plan: &TimePlan) -> MacroStep {
+    plan.step().unwrap_or_else(|| super::at_start(plan.t()))
 }

@@ -32,6 +32,8 @@ pub struct Subsystem {
     sequence: u64,
     /// What the next exchange sends.
     pub(crate) request: v1::ExchangeRequest,
+    /// The memory of an advance that the request does without.
+    idle_advance: Option<v1::Advance>,
     /// What the last exchange brought.
     pub(crate) reply: v1::ExchangeReply,
     /// Names of the coupling outputs, then of the recorded outputs.
@@ -63,6 +65,7 @@ impl Subsystem {
             instance: RandomState::new().hash_one(name),
             sequence: 0,
             request: v1::ExchangeRequest::default(),
+            idle_advance: None,
             reply: v1::ExchangeReply::default(),
             output_names: Vec::new(),
             coupling_outputs: 0,
@@ -267,6 +270,20 @@ impl Subsystem {
             self.check(entry, &outputs.values, names, step)?;
         }
         Ok(())
+    }
+
+    /// The advance of the next request.
+    pub(crate) fn advance_to_fill(&mut self) -> &mut v1::Advance {
+        let idle = &mut self.idle_advance;
+        let advance = &mut self.request.advance;
+        advance.get_or_insert_with(|| idle.take().unwrap_or_default())
+    }
+
+    /// Lets the next request be without an advance.
+    pub(crate) fn forgo_advance(&mut self) {
+        if let Some(advance) = self.request.advance.take() {
+            self.idle_advance = Some(advance);
+        }
     }
 
     /// The signal of driven input `place` in the advance that was prepared.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::carriage::Carriage;
-use super::layout::{Layout, Over};
+use super::layout::{DrivenInput, Layout, Over};
 use super::unknowns::Unknowns;
 use crate::cosimulation::{Ahead, Parts};
 use crate::scene::Increment;
@@ -69,9 +69,8 @@ impl Columns {
                 let place = input.is_perturbed.then_some(*count);
                 *count += usize::from(input.is_perturbed);
                 own.columns.push(Column {
-                    is_load: input.drives_load(layout.rows.len()),
                     place,
-                    ..Column::default()
+                    ..Column::new(input, layout)
                 });
             }
             own.of_input.push(numbers);
@@ -104,12 +103,11 @@ impl Columns {
                 continue;
             }
             let end = input.value(look.ends, look.raised.attitudes());
+            let length = look.raised.length();
             over.curves = look.raised;
             for (raised, column) in self.columns[columns.clone()].iter_mut().enumerate() {
                 if let Some(place) = column.place {
-                    let audible = subsystem
-                        .noise()
-                        .map(|noise| column.audible(noise, &self.positions[input.subsystem]));
+                    let audible = subsystem.noise().map(|noise| column.audible(length, noise));
                     column.choose_increment(self.rule, end, audible);
                     let signal = subsystem.perturbed_signal(self.ahead, place, input.place);
                     input.raised_signal(&mut over, raised, column.increment, signal);
@@ -125,6 +123,22 @@ impl Columns {
                 let look = subsystem.look(self.ahead);
                 look.perturbed.resize_with(columns, Default::default);
             }
+        }
+    }
+
+    /// The step of this length is done: its responses are what increments are chosen by.
+    pub fn keep_responses(&mut self, length: f64) {
+        for column in &mut self.columns {
+            let value = column.response;
+            let newest = Response { value, length };
+            column.responses = [newest, column.responses[0]];
+        }
+    }
+
+    /// Takes the last [`Columns::keep_responses`] back.
+    pub fn forget_responses(&mut self) {
+        for column in &mut self.columns {
+            column.responses[0] = column.responses[1];
         }
     }
 
@@ -145,6 +159,7 @@ impl Columns {
             for column in &mut self.columns[columns.clone()] {
                 if let Some(place) = column.place {
                     column.difference(predicted, &perturbed[place].values);
+                    column.response = column.largest(&self.positions[input.subsystem]);
                 }
             }
         }
@@ -163,9 +178,40 @@ pub struct Column {
     pub is_load: bool,
     /// Place among the perturbed steps of its subsystem; absent if the input is not perturbed.
     pub place: Option<usize>,
+    /// Largest response of a position.
+    response: f64,
+    /// The same in the last two steps that were done, newest first.
+    responses: [Response; 2],
+}
+
+/// Response of an output to a unit of an input over a step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Response {
+    value: f64,
+    length: f64,
+}
+
+impl Response {
+    /// Its size over a step of another length: that of a position to a load goes with the square.
+    fn over(&self, length: f64) -> f64 {
+        let ratio = if length == self.length {
+            1.0
+        } else {
+            length / self.length
+        };
+        self.value.abs() * ratio * ratio
+    }
 }
 
 impl Column {
+    /// The column of an input, not known yet.
+    pub fn new(input: &DrivenInput, layout: &Layout) -> Self {
+        Self {
+            is_load: input.drives_load(layout.rows.len()),
+            ..Self::default()
+        }
+    }
+
     /// Takes the difference quotient of two answers of a worker.
     pub fn difference(&mut self, predicted: &[f64], perturbed: &[f64]) {
         self.derivatives.clear();
@@ -189,14 +235,19 @@ impl Column {
         };
     }
 
-    /// The increment under which the largest of the last known responses of the outputs `positions` stands a thousand times
-    /// above `noise`; 0 if none responds. Single outputs may hardly respond, such as a coordinate across a force: an
-    /// increment after them would leave the range in which a load acts linearly.
-    fn audible(&self, noise: f64, positions: &[usize]) -> f64 {
+    /// The largest response of the outputs `positions`. Single ones may hardly respond, such as a coordinate across a force:
+    /// an increment after them would leave the range in which a load acts linearly.
+    fn largest(&self, positions: &[usize]) -> f64 {
         let derivatives = positions
             .iter()
             .filter_map(|&position| self.derivatives.get(position));
-        let response = derivatives.fold(0.0, |largest: f64, one| largest.max(one.abs()));
+        derivatives.fold(0.0, |largest: f64, one| largest.max(one.abs()))
+    }
+
+    /// The increment under which the last known response stands a thousand times above `noise` over a step of this length; 0
+    /// if nothing responds.
+    fn audible(&self, length: f64, noise: f64) -> f64 {
+        let response = self.responses[0].over(length);
         if response > 0.0 {
             ABOVE_NOISE * noise / response
         } else {
@@ -223,13 +274,19 @@ mod tests {
         let mut column = Column {
             // A force across the first coordinate, along the second; behind them a velocity.
             derivatives: vec![-3e-13, -5e-7, 1e-3],
-            increment: 0.0,
             is_load: true,
-            place: None,
+            responses: [Response {
+                value: 5e-7,
+                length: 1e-3,
+            }; 2],
+            ..Column::default()
         };
-        let audible = column.audible(1e-8, &[0, 1]);
+        column.responses[0].value = column.largest(&[0, 1]);
+        let audible = column.audible(1e-3, 1e-8);
         assert!((audible * 5e-7 / 1e-8 - 1e3).abs() < 1e-9);
-        assert_eq!(column.audible(1e-8, &[]), 0.0);
+        let over_a_longer_step = column.audible(2e-3, 1e-8);
+        assert!((over_a_longer_step * 2e-6 / 1e-8 - 1e3).abs() < 1e-9);
+        assert_eq!(column.largest(&[]), 0.0);
         column.choose_increment(Increment::Relative(1e-5), 333.0, Some(audible));
         assert_eq!(column.increment, 1e-5 * 333.0);
         column.choose_increment(Increment::Automatic, 0.0, None);
@@ -246,10 +303,8 @@ mod tests {
     #[test]
     fn a_difference_is_per_unit_of_the_input() {
         let mut column = Column {
-            derivatives: Vec::new(),
             increment: 0.5,
-            is_load: true,
-            place: None,
+            ..Column::default()
         };
         column.difference(&[1.0, 2.0], &[1.5, 0.0]);
         assert_eq!(column.derivatives, [1.0, -4.0]);

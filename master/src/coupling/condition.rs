@@ -5,7 +5,7 @@ use super::system::System;
 use crate::cosimulation::Parts;
 use crate::error::RunError;
 use crate::joint::Level;
-use crate::scene::{Index, Method};
+use crate::scene::{Formula, Index, Method};
 use crate::time::MacroStep;
 
 /// The equation that the corrected multipliers solve, linearised about the prediction.
@@ -14,9 +14,9 @@ pub enum Condition {
     /// `g + beta g' + gamma g'' = 0` (S1 eqs. 15, 68).
     Baumgarte {
         /// s
-        beta: f64,
+        beta: Formula,
         /// s^2
-        gamma: f64,
+        gamma: Formula,
     },
     /// Weighted mean of the multipliers that solve `g = 0`, `g' = 0` and `g'' = 0` (S1 eqs. 23, 76).
     Weighted {
@@ -89,9 +89,10 @@ impl Condition {
         (0..systems).map(solver).collect()
     }
 
-    /// Solves the linearised condition for the change of the multipliers from their prediction.
+    /// Solves the linearised condition at the end of a step of this length for the change of the multipliers from their prediction.
     pub fn solve(
         &self,
+        length: f64,
         system: &mut System,
         solvers: &mut [LinearSolver],
         change: &mut [f64],
@@ -99,7 +100,7 @@ impl Condition {
         let level = system.level();
         match *self {
             Self::Baumgarte { beta, gamma } => {
-                system.combine([1.0, beta, gamma]);
+                system.combine([1.0, beta.at(length), gamma.at(length)]);
                 let (pattern, jacobian, own) = system.combined_equation();
                 solvers[0]
                     .solve(pattern, jacobian, own)
@@ -124,13 +125,14 @@ impl Condition {
     /// Solves again with the matrices of the last [`Condition::solve`], for other residuals in `system`.
     pub fn solve_again(
         &self,
+        length: f64,
         system: &mut System,
         solvers: &mut [LinearSolver],
         change: &mut [f64],
     ) {
         match *self {
             Self::Baumgarte { beta, gamma } => {
-                system.combine_residuals([1.0, beta, gamma]);
+                system.combine_residuals([1.0, beta.at(length), gamma.at(length)]);
                 let own = system.combined_rhs();
                 solvers[0].solve_again(own);
                 change.copy_from_slice(own);

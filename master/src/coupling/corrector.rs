@@ -1,5 +1,6 @@
 //! What a predictor/corrector method does in a macro step; in which order is told by the co-simulation.
 
+use super::error_estimate::{ErrorScales, Estimate};
 use crate::cosimulation::Parts;
 use crate::coupling::measure::Change;
 use crate::error::RunError;
@@ -25,6 +26,13 @@ pub(crate) trait Corrector: Send {
 
     /// Solves for the coupling variables at the end of `step` from the answers to the look-ahead over it.
     fn correct(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError>;
+
+    /// The error of the step that [`Corrector::correct`] has just solved, before any worker has taken it: from predicted against
+    /// corrected coupling variables.
+    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate;
+
+    /// The loads jump in the present step: what they were before is no help.
+    fn restart(&mut self);
 
     /// Fills in the advance over `step` with the corrected inputs.
     fn request_advance(&mut self, parts: &mut Parts, step: MacroStep);

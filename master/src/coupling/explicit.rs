@@ -8,10 +8,9 @@ use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
 use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Outcome, Parts, Passes, exchange};
+use crate::cosimulation::{Ahead, Outcome, Parts, exchange};
 use crate::error::RunError;
-use crate::results::Verdict;
-use crate::scene::Increment;
+use crate::scene::{Formula, Increment};
 use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
 
@@ -19,7 +18,7 @@ use crate::time::MacroStep;
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices
 /// and no step is repeated.
 pub struct Explicit {
-    condition: Condition,
+    mu: Formula,
     history: History,
     rows: usize,
     change: Vec<f64>,
@@ -32,24 +31,20 @@ pub struct Explicit {
 
 impl Explicit {
     /// The method with time constant `mu` (s), from trial values of the coupling variables.
-    pub fn new(mu: f64, increment: Increment, history: History, parts: &Parts) -> Self {
+    pub fn new(mu: Formula, increment: Increment, history: History, parts: &Parts) -> Self {
         let size = parts.layout.variables();
         let unknowns = Unknowns::ends(&parts.layout);
         let columns = Columns::new(increment, Ahead::Step, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
-        let condition = Condition::Baumgarte {
-            beta: 2.0 * mu,
-            gamma: mu * mu,
-        };
         Self {
-            condition,
+            mu,
             rows: parts.layout.rows.len(),
             change: vec![0.0; size],
             values: history.newest().to_vec(),
             history,
             memory: vec![0.0; size],
             columns,
-            solvers: condition.solvers(&system),
+            solvers: condition_of(mu.at(0.0)).solvers(&system),
             system,
         }
     }
@@ -63,7 +58,9 @@ impl Explicit {
     pub fn begin(&mut self, parts: &mut Parts, first: MacroStep) -> Result<(), RunError> {
         self.request_evaluation(parts, first.start);
         exchange(&mut parts.subsystems, first)?;
-        self.solve(parts, first, 0.0)
+        self.solve(parts, first)?;
+        self.history.push(0.0, &self.values);
+        Ok(())
     }
 
     /// One macro step: advance with the multipliers of its start, evaluate its end, solve there.
@@ -85,13 +82,10 @@ impl Explicit {
         self.request_evaluation(parts, step.end);
         exchange(&mut parts.subsystems, step)?;
         let started = Instant::now();
-        self.solve(parts, step, step.length)?;
-        let solving = started.elapsed().as_secs_f64();
-        Ok(Outcome {
-            verdict: Verdict::Uncorrected,
-            solving,
-            passes: Passes::default(),
-        })
+        self.solve(parts, step)?;
+        let solving = started.elapsed();
+        self.history.push(step.length, &self.values);
+        Ok(Outcome::of_step(step, solving))
     }
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
@@ -111,21 +105,33 @@ impl Explicit {
         self.columns.request(parts, look, &mut self.memory);
     }
 
-    fn solve(&mut self, parts: &Parts, step: MacroStep, length: f64) -> Result<(), RunError> {
+    fn solve(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
         self.columns.difference(parts);
+        self.columns.keep_responses(0.0);
         let point = Point::ends(self.history.newest(), self.history.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
         self.system
             .assemble(&parts.layout, outputs, self.columns.all(), point);
-        self.condition
-            .solve(&mut self.system, &mut self.solvers, &mut self.change)
+        condition_of(self.mu.at(step.length))
+            .solve(
+                step.length,
+                &mut self.system,
+                &mut self.solvers,
+                &mut self.change,
+            )
             .map_err(|singular| singular.in_step(parts, step))?;
         let trial = self.history.newest().iter().zip(&self.change);
         for (value, (trial, change)) in self.values.iter_mut().zip(trial) {
             *value = trial + change;
         }
-        check_finite(&self.values, parts, step)?;
-        self.history.push(length, &self.values);
-        Ok(())
+        check_finite(&self.values, parts, step)
+    }
+}
+
+/// `(mu d/dt + 1)^2 g = 0`
+fn condition_of(mu: f64) -> Condition {
+    Condition::Baumgarte {
+        beta: Formula::from(2.0 * mu),
+        gamma: Formula::from(mu * mu),
     }
 }

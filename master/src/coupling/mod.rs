@@ -6,6 +6,8 @@
 //! * [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
 //! * [`columns`]: increments and finite differences;
+//! * [`position_error`]: errors of positions by those of the multipliers;
+//! * [`error_estimate`]: the error of a macro step against the tolerance;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
 //! * [`promise`]: what a correction promises, and what the workers make of it;
 //! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
@@ -14,12 +16,14 @@ pub mod carriage;
 pub mod columns;
 pub mod condition;
 pub mod corrector;
+pub mod error_estimate;
 pub mod explicit;
 pub mod hermite;
 pub mod layout;
 pub mod measure;
 pub mod pattern;
 pub mod penalty;
+pub mod position_error;
 pub mod promise;
 pub mod semi_implicit;
 pub mod solve;

@@ -11,13 +11,14 @@
 
 use std::ops::Range;
 
+use std::time::Duration;
+
 use super::condition::check_finite;
 use super::layout::{Layout, Over, Row};
 use super::system::motion_of;
-use crate::cosimulation::{Outcome, Parts, Passes, exchange};
+use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
-use crate::results::Verdict;
 use crate::scene::{Order, Spring};
 use crate::signal::{Curve, History, Lagrange, Variables};
 use crate::time::MacroStep;
@@ -80,11 +81,7 @@ impl Penalty {
         if let Some(sequence) = &mut self.sequence {
             sequence.outputs.push(step.length, &sequence.ends);
         }
-        Ok(Outcome {
-            verdict: Verdict::Uncorrected,
-            solving: 0.0,
-            passes: Passes::default(),
-        })
+        Ok(Outcome::of_step(step, Duration::ZERO))
     }
 
     fn all_at_once(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {

@@ -3,8 +3,10 @@
 use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
 use super::corrector::{Again, Corrector};
+use super::error_estimate::{ErrorScales, Estimate, Suspect};
 use super::layout::Over;
 use super::measure::{Change, Measure};
+use super::position_error::{Correction, PositionErrors};
 use super::promise::Promise;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
@@ -13,7 +15,7 @@ use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
 use crate::results::Verdict;
 use crate::scene::Increment;
-use crate::signal::{Curve, History, Lagrange};
+use crate::signal::{Curve, ErrorShares, History, Lagrange};
 use crate::time::MacroStep;
 
 /// State of a semi-implicit method between two macro steps.
@@ -27,6 +29,9 @@ pub struct SemiImplicit {
     change: Vec<f64>,
     corrected: Vec<f64>,
     promise: Promise,
+    /// Errors of the multipliers as the positions feel them.
+    load_errors: Vec<f64>,
+    position_errors: PositionErrors,
     memory: Vec<f64>,
     columns: Columns,
     system: System,
@@ -38,6 +43,8 @@ pub struct SemiImplicit {
     is_first: bool,
     /// To what the columns belong.
     shape: Shape,
+    /// Length of the step that was corrected last.
+    solved: f64,
 }
 
 impl SemiImplicit {
@@ -62,6 +69,8 @@ impl SemiImplicit {
             change: zeros(),
             corrected: zeros(),
             promise: Promise::new(size),
+            load_errors: zeros(),
+            position_errors: PositionErrors::new(size),
             memory: zeros(),
             columns,
             solvers: condition.solvers(&system),
@@ -69,6 +78,7 @@ impl SemiImplicit {
             measure: Measure::new(&parts.layout),
             is_first: true,
             shape: Shape::default(),
+            solved: 0.0,
             system,
         }
     }
@@ -93,6 +103,19 @@ impl Shape {
     }
 }
 
+impl SemiImplicit {
+    /// Errors of the multipliers as positions feel them.
+    fn find_load_errors(&mut self, step: MacroStep, estimate: &mut Estimate) -> ErrorShares {
+        let mut shares = ErrorShares::default();
+        for row in 0..self.rows {
+            shares = self.history.error_shares(row, step.length);
+            self.load_errors[row] = shares.position * self.change[row];
+            estimate.change = estimate.change.max(self.change[row].abs());
+        }
+        shares
+    }
+}
+
 impl Corrector for SemiImplicit {
     fn multipliers(&self) -> &[f64] {
         &self.history.newest()[..self.rows]
@@ -100,13 +123,19 @@ impl Corrector for SemiImplicit {
 
     /// S1 eqs. (62) to (68), (73) to (76): columns, Jacobian, corrected coupling variables at `T_{N+1}`.
     fn correct(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
+        self.solved = step.length;
         self.columns.difference(parts);
         let point = Point::ends(&self.predicted, self.history.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
         self.system
             .assemble(&parts.layout, outputs, self.columns.all(), point);
         self.condition
-            .solve(&mut self.system, &mut self.solvers, &mut self.change)
+            .solve(
+                step.length,
+                &mut self.system,
+                &mut self.solvers,
+                &mut self.change,
+            )
             .map_err(|singular| singular.in_step(parts, step))?;
         let ends = self.predicted.iter().zip(&self.change);
         for (corrected, (predicted, change)) in self.corrected.iter_mut().zip(ends) {
@@ -117,6 +146,39 @@ impl Corrector for SemiImplicit {
             self.measure.note(&self.change);
         }
         check_finite(&self.corrected, parts, step)
+    }
+
+    /// Positions: the columns times the errors of the multipliers. Exchanged variables: the mean error of their curves over the step.
+    ///
+    /// A joint closes again what its multipliers have missed, so errors of position by multipliers do not add up over the steps. Those
+    /// by exchanged variables do, which makes the error of the motion as large, relative to its size, as that of the curves.
+    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
+        let mut estimate = Estimate::NONE;
+        let shares = self.find_load_errors(step, &mut estimate);
+        let correction = Correction {
+            system: &self.system,
+            columns: &self.columns,
+            change: &self.change,
+            errors: &self.load_errors,
+            share: shares.position,
+            order: shares.order + 2,
+        };
+        self.position_errors
+            .estimate(parts, step, correction, scales, &mut estimate);
+        for exchanged in &parts.layout.exchanged {
+            let allowed = scales.allowed_of_variable(exchanged.subsystem, exchanged.what);
+            for variable in exchanged.first..exchanged.first + exchanged.size() {
+                let shares = self.history.error_shares(variable, step.length);
+                let error = shares.mean * self.change[variable];
+                let suspect = Suspect::Variable(variable);
+                estimate.add(error.abs() / allowed, shares.order, suspect);
+            }
+        }
+        estimate
+    }
+
+    fn restart(&mut self) {
+        self.history.restart(self.rows);
     }
 
     /// S1 eq. (69): the interpolation through the corrected end value.
@@ -172,10 +234,12 @@ impl Corrector for SemiImplicit {
     fn move_on(&mut self, step: MacroStep) {
         self.before.copy_from(&self.history);
         self.history.push(step.length, &self.corrected);
+        self.columns.keep_responses(step.length);
     }
 
     fn move_back(&mut self) {
         std::mem::swap(&mut self.history, &mut self.before);
+        self.columns.forget_responses();
     }
 
     fn judge(&mut self, parts: &Parts) -> Verdict {
@@ -226,8 +290,12 @@ impl Again for SemiImplicit {
         let system = &mut self.system;
         system.assemble_residuals(&parts.layout, outputs, point);
         system.drop_rounding(&parts.layout, point);
-        self.condition
-            .solve_again(system, &mut self.solvers, &mut self.remaining);
+        self.condition.solve_again(
+            self.shape.length,
+            system,
+            &mut self.solvers,
+            &mut self.remaining,
+        );
         self.measure.of(&self.remaining, &self.corrected).of_usual
     }
 }

@@ -5,14 +5,15 @@
 //! subsystems at once. Gauss-Seidel: one after the other in the order of the scene, later ones with interpolated
 //! values of those before them.
 
+use std::time::Duration;
+
 use super::condition::check_finite;
 use super::layout::DrivenInput;
 use super::layout::input::Source;
 use super::system::motion_of;
-use crate::cosimulation::{Outcome, Parts, Passes, exchange};
+use crate::cosimulation::{Outcome, Parts, exchange};
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
-use crate::results::Verdict;
 use crate::scene::Order;
 use crate::signal::{Curve, History, Variables};
 use crate::time::MacroStep;
@@ -64,11 +65,7 @@ impl Springs {
         self.read_variables(parts);
         self.history.push(step.length, &self.values);
         check_finite(self.multipliers(), parts, step)?;
-        Ok(Outcome {
-            verdict: Verdict::Uncorrected,
-            solving: 0.0,
-            passes: Passes::default(),
-        })
+        Ok(Outcome::of_step(step, Duration::ZERO))
     }
 
     fn all_at_once(&self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {

@@ -345,6 +345,31 @@ impl System {
         }
     }
 
+    /// Writes for each column how far its input is raised in its shape where the unknowns change by `change`.
+    pub fn raise(&self, layout: &Layout, change: &[f64], raised: &mut Vec<f64>) {
+        raised.clear();
+        for (number, input) in layout.inputs.iter().enumerate() {
+            for (shape, column) in self.unknowns.columns(number).enumerate() {
+                let gradient = &self.gradients[self.gradient_starts[column]..];
+                let mut sum = 0.0;
+                self.unknowns
+                    .visit_terms(input, &self.variables[number], shape, &mut |term| {
+                        sum += gradient[term.entry] * term.factor * change[term.unknown];
+                    });
+                raised.push(sum);
+            }
+        }
+    }
+
+    /// Numbers of the columns of one subsystem.
+    pub fn columns_of(&self, layout: &Layout, subsystem: usize) -> Range<usize> {
+        let inputs = layout.input_range(subsystem);
+        let columns = inputs.map(|input| self.unknowns.columns(input));
+        columns
+            .reduce(|all, own| all.start..own.end)
+            .unwrap_or_default()
+    }
+
     /// Forms `sum_l weight_l g_l` and `sum_l weight_l G_l` over the levels for the rows of joints; the rows of exchanged
     /// variables are the same on every level and stay as they are.
     pub fn combine(&mut self, weights: [f64; 3]) {

@@ -9,5 +9,7 @@ mod verdict;
 pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
 pub use row::{Drawn, Row};
-pub use statistics::{Corrections, JointResiduals, Statistics, SubsystemStatistics};
+pub use statistics::{
+    Corrections, JointResiduals, Statistics, StepStatistics, SubsystemStatistics,
+};
 pub use verdict::{Defect, Verdict};

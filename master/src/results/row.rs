@@ -3,6 +3,10 @@
 use crate::cosimulation::Parts;
 use crate::coupling::system::motion_of;
 use crate::joint::Level;
+use crate::time::MacroStep;
+
+/// The column of variable macro steps.
+const STEP: &str = "step";
 
 /// Time, outputs, multipliers and residuals at one macro point, in the order of the result columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +18,7 @@ pub struct Row {
     first_multiplier: usize,
     first_residual: usize,
     levels: usize,
+    shows_step: bool,
 }
 
 /// A column in the picture of a run.
@@ -30,7 +35,8 @@ pub enum Drawn {
 }
 
 impl Row {
-    pub(crate) fn new(parts: &Parts) -> Self {
+    /// `shows_step`: the length of the macro step is a column.
+    pub(crate) fn new(parts: &Parts, shows_step: bool) -> Self {
         let mut columns = vec!["t".to_owned()];
         let mut first_outputs = Vec::new();
         for subsystem in &parts.subsystems {
@@ -62,6 +68,9 @@ impl Row {
             };
             columns.extend(levels.iter().map(name));
         }
+        if shows_step {
+            columns.push(STEP.to_owned());
+        }
         Self {
             values: vec![0.0; columns.len()],
             columns,
@@ -70,12 +79,14 @@ impl Row {
             first_multiplier,
             first_residual,
             levels: levels.len(),
+            shows_step,
         }
     }
 
-    pub(crate) fn read(&mut self, t: f64, parts: &Parts, multipliers: &[f64]) {
+    /// Reads the values at the end of `step`.
+    pub(crate) fn read(&mut self, step: MacroStep, parts: &Parts, multipliers: &[f64]) {
         self.values.clear();
-        self.values.push(t);
+        self.values.push(step.end);
         for subsystem in &parts.subsystems {
             self.values.extend_from_slice(&subsystem.outputs);
         }
@@ -89,9 +100,13 @@ impl Row {
                 self.values.extend_from_slice(&values[..self.levels]);
             }
         }
+        if self.shows_step {
+            self.values.push(step.length);
+        }
     }
 
-    /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`.
+    /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`; `step` where it varies, the length
+    /// of the macro step that ends here.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
@@ -111,6 +126,9 @@ impl Row {
     pub fn drawn(&self, place: usize) -> Option<Drawn> {
         if (self.first_multiplier..self.first_residual).contains(&place) {
             return Some(Drawn::Multiplier);
+        }
+        if self.shows_step && place + 1 == self.columns.len() {
+            return None;
         }
         if place >= self.first_residual {
             let is_position = (place - self.first_residual).is_multiple_of(self.levels);

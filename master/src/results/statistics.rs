@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::{Integrations, Row, Verdict};
 use crate::cosimulation::{FreeVelocity, Outcome, Passes, Subsystem};
 use crate::coupling::layout::Layout;
+use crate::time::MacroStep;
 
 /// What a run cost and how well its joints held.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -29,6 +30,8 @@ pub struct Statistics {
     pub time_solving: f64,
     /// Time in s that the workers spent in their solvers, added up over all workers.
     pub time_in_solvers: f64,
+    /// Lengths of variable macro steps; absent if they do not vary.
+    pub steps: Option<StepStatistics>,
     /// Steps by verdict.
     pub verdicts: Verdicts,
     /// Largest residuals of every joint.
@@ -64,6 +67,41 @@ impl Corrections {
         self.most_passes = self.most_passes.max(passes.count);
         self.slowest_rate = self.slowest_rate.max(passes.rate.unwrap_or(0.0));
         self.unconverged += u64::from(passes.is_unconverged);
+    }
+}
+
+/// What became of variable macro steps.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct StepStatistics {
+    /// Attempts that were repeated with a shorter step.
+    pub rejected: u64,
+    /// The shortest step that was accepted.
+    pub shortest: Option<StepAt>,
+    /// The longest one.
+    pub longest: Option<StepAt>,
+}
+
+/// A macro step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct StepAt {
+    /// Its start in s.
+    pub t: f64,
+    /// Its length in s.
+    pub length: f64,
+}
+
+impl StepStatistics {
+    pub(crate) fn accept(&mut self, step: MacroStep) {
+        let own = StepAt {
+            t: step.start,
+            length: step.length,
+        };
+        if self.shortest.is_none_or(|known| own.length < known.length) {
+            self.shortest = Some(own);
+        }
+        if self.longest.is_none_or(|known| own.length > known.length) {
+            self.longest = Some(own);
+        }
     }
 }
 
@@ -132,7 +170,7 @@ impl Statistics {
     pub(crate) fn count(&mut self, outcome: &Outcome, time: Duration, row: &Row) {
         self.macro_steps += 1;
         self.time_total += time.as_secs_f64();
-        self.time_solving += outcome.solving;
+        self.time_solving += outcome.solving.as_secs_f64();
         self.corrections.count(&outcome.passes);
         let verdicts = &mut self.verdicts;
         *match outcome.verdict {

@@ -7,6 +7,7 @@ use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
 use super::resolved::{
     Coupling, Increment, Iterations, Jacobian, Loads, Method, Order, Otherwise, Spring, Variant,
 };
+use super::step_control::{self, MacroSteps};
 use super::written::Value;
 
 /// The key whose override changes which other keys there are.
@@ -16,11 +17,15 @@ pub(super) const METHOD_KEY: &str = "coupling.method";
 const HIGHEST_DEGREE: usize = 3;
 
 /// Keys that every method has.
-const COMMON: [&str; 5] = [
+const COMMON: [&str; 9] = [
     "method",
     "exchanged_degree",
     "loads",
     "macro_step",
+    "tolerance",
+    "absolute_tolerance",
+    "least_step",
+    "greatest_step",
     "increment",
 ];
 
@@ -153,16 +158,14 @@ pub(super) fn read(
         .require("method", "method = \"baumgarte\"", problems)
         .and_then(|field| field.choice(&METHODS, problems));
     check_keys(section, kind, problems);
-    let macro_step = section
-        .require("macro_step", "macro_step = 1e-3", problems)
-        .and_then(|field| read_macro_step(&field, duration, problems));
+    let steps = step_control::read(section, duration, problems);
     let increment = section
         .get("increment")
         .map_or(Some(Increment::Automatic), |field| {
             read_increment(&field, problems)
         });
     let highest = kind.map_or(HIGHEST_DEGREE, Kind::highest_degree);
-    let method = kind.and_then(|kind| read_method(kind, section, macro_step, problems));
+    let method = kind.and_then(|kind| read_method(kind, section, steps.as_ref(), problems));
     let degree = match (section.get("degree"), kind, method) {
         (_, _, Some(Method::Hermite { variant })) => Some(variant.degree()),
         (Some(field), ..) => field.whole(0, highest, problems),
@@ -190,12 +193,14 @@ pub(super) fn read(
             .map(Some),
         None => Some(None),
     };
+    let MacroSteps { first, control } = steps?;
     Some(Coupling {
         method: method?,
         degree: degree?,
         exchanged_degree: exchanged_degree?,
         loads: loads?,
-        macro_step: macro_step?,
+        macro_step: first,
+        step_control: control,
         increment: increment?,
         jacobian: jacobian?,
         iterations: iterations?,
@@ -236,27 +241,6 @@ fn check_keys_of_all_methods(section: &Section<'_>, problems: &mut Problems<'_>)
     section.allow_only(&allowed, problems);
 }
 
-/// A macro step in s: greater than 0 and at most the simulated time.
-pub(super) fn read_macro_step(
-    field: &Field<'_>,
-    duration: Option<f64>,
-    problems: &mut Problems<'_>,
-) -> Option<f64> {
-    let macro_step = field.number(&POSITIVE, problems)?;
-    match duration {
-        Some(duration) if macro_step > duration => {
-            let kind = SceneErrorKind::StepTooLong {
-                key: field.key.clone(),
-                macro_step,
-                duration,
-            };
-            field.report(kind, problems);
-            None
-        }
-        _ => Some(macro_step),
-    }
-}
-
 fn read_iterations(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Iterations> {
     section.allow_only(&["most", "tolerance", "otherwise"], problems);
     let most = section
@@ -287,9 +271,10 @@ fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Incr
 fn read_method(
     kind: Kind,
     section: &Section<'_>,
-    macro_step: Option<f64>,
+    steps: Option<&MacroSteps>,
     problems: &mut Problems<'_>,
 ) -> Option<Method> {
+    let steps = steps.map(MacroSteps::range);
     match kind {
         Kind::Baumgarte => {
             let weights = Weights {
@@ -297,7 +282,7 @@ fn read_method(
                 first: ("beta", Formula::multiple(2.0, Unit::Time)),
                 second: ("gamma", Formula::multiple(1.0, Unit::TimeSquared)),
             };
-            let (index, beta, gamma) = weights.resolve(section, macro_step, problems)?;
+            let (index, beta, gamma) = weights.resolve(section, steps, problems)?;
             Some(Method::Baumgarte { index, beta, gamma })
         }
         Kind::Weighted => {
@@ -306,7 +291,8 @@ fn read_method(
                 first: ("a", Formula::multiple(2.0, Unit::Plain)),
                 second: ("b", Formula::multiple(2.6, Unit::Plain)),
             };
-            let (index, a, b) = weights.resolve(section, macro_step, problems)?;
+            let (index, a, b) = weights.resolve(section, steps, problems)?;
+            let [a, b] = [a, b].map(Formula::number);
             Some(Method::Weighted { index, a, b })
         }
         Kind::Hermite => {
@@ -320,7 +306,7 @@ fn read_method(
             let field = section.require("mu", "mu = \"10H\"", problems)?;
             let formula = Formula::read_positive(&field, Unit::Time, problems)?;
             let mu = formula
-                .at(macro_step?, &field.key)
+                .over(steps?, &field.key)
                 .map_err(|kind| field.report(kind, problems));
             Some(Method::Explicit { mu: mu.ok()? })
         }

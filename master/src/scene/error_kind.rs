@@ -251,6 +251,24 @@ pub enum SceneErrorKind {
         /// t_end - t_start in s.
         duration: f64,
     },
+    /// A key that says something about variable macro steps, where they do not vary.
+    #[error("`{key}` belongs to variable macro steps, which `coupling.tolerance` turns on")]
+    OnlyWithTolerance {
+        /// The key.
+        key: String,
+    },
+    /// Least, first and greatest macro step in no order.
+    #[error("`{shorter}` = {least:?} s must be at most `{longer}` = {most:?} s")]
+    StepsOutOfOrder {
+        /// The key of what must be the shorter step.
+        shorter: String,
+        /// Its value in s.
+        least: f64,
+        /// The key of what must be the longer step.
+        longer: String,
+        /// Its value in s.
+        most: f64,
+    },
     /// A scene without subsystems.
     #[error("the scene has no subsystem; it needs at least one [[subsystem]]")]
     NoSubsystem,

@@ -2,13 +2,15 @@
 
 use std::fmt;
 
+use serde::{Serialize, Serializer};
+
 use super::error_kind::SceneErrorKind;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems};
 use super::written::Value;
 
 /// The power of H that fits the unit of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
+pub(crate) enum Unit {
     /// A number without unit: no multiple of H.
     Plain,
     /// s: multiples of H.
@@ -37,9 +39,20 @@ impl Unit {
     }
 }
 
-/// A finite number, 0 or greater, times a power of the macro step.
+/// The macro steps that a formula is taken for, in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Formula {
+pub(super) enum Steps {
+    /// One for the whole run.
+    Fixed(f64),
+    /// They vary between the least and the greatest.
+    Between(f64, f64),
+}
+
+/// A finite number, 0 or greater, times a power of the macro step.
+///
+/// Serialises as the number, or as text such as `"2.0 H"`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Formula {
     factor: f64,
     unit: Unit,
 }
@@ -47,7 +60,7 @@ pub(super) struct Formula {
 impl Formula {
     pub(super) const ZERO: Self = Self::multiple(0.0, Unit::Plain);
 
-    pub(super) const fn multiple(factor: f64, unit: Unit) -> Self {
+    pub(crate) const fn multiple(factor: f64, unit: Unit) -> Self {
         Self { factor, unit }
     }
 
@@ -88,13 +101,35 @@ impl Formula {
         self.factor == 0.0
     }
 
-    /// The value for a macro step in s, unless it over- or underflows.
-    pub(super) fn at(self, macro_step: f64, key: &str) -> Result<f64, SceneErrorKind> {
-        let value = match self.unit {
+    /// The number itself, of a formula that is no multiple of H.
+    pub(super) fn number(self) -> f64 {
+        self.factor
+    }
+
+    /// The value for a macro step in s.
+    pub fn at(self, macro_step: f64) -> f64 {
+        match self.unit {
             Unit::Plain => self.factor,
             Unit::Time => self.factor * macro_step,
             Unit::TimeSquared => self.factor * macro_step * macro_step,
-        };
+        }
+    }
+
+    /// What stands in the resolved scene: the formula where the macro step varies within `steps`, else its number; in neither
+    /// case may a value over- or underflow.
+    pub(super) fn over(self, steps: Steps, key: &str) -> Result<Self, SceneErrorKind> {
+        match steps {
+            Steps::Fixed(macro_step) => self.checked_at(macro_step, key).map(Self::from),
+            Steps::Between(least, greatest) => {
+                self.checked_at(least, key)?;
+                self.checked_at(greatest, key)?;
+                Ok(self)
+            }
+        }
+    }
+
+    fn checked_at(self, macro_step: f64, key: &str) -> Result<f64, SceneErrorKind> {
+        let value = self.at(macro_step);
         if value.is_finite() && (value > 0.0 || self.is_zero()) {
             return Ok(value);
         }
@@ -104,6 +139,23 @@ impl Formula {
             value,
             macro_step,
         })
+    }
+}
+
+impl From<f64> for Formula {
+    fn from(number: f64) -> Self {
+        Self::multiple(number, Unit::Plain)
+    }
+}
+
+impl Serialize for Formula {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.unit {
+            Unit::Plain => serializer.serialize_f64(self.factor),
+            Unit::Time | Unit::TimeSquared => {
+                serializer.collect_str(&format_args!("{:?} {}", self.factor, self.unit.symbol()))
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The index of a coupling method and the two parameters from which it follows.
 
 use super::error_kind::SceneErrorKind;
-use super::formula::Formula;
+use super::formula::{Formula, Steps};
 use super::place::Spot;
 use super::reader::{Field, Problems, Section};
 use super::resolved::Index;
@@ -28,9 +28,9 @@ impl Weights {
     pub(super) fn resolve(
         &self,
         section: &Section<'_>,
-        macro_step: Option<f64>,
+        steps: Option<Steps>,
         problems: &mut Problems<'_>,
-    ) -> Option<(Index, f64, f64)> {
+    ) -> Option<(Index, Formula, Formula)> {
         let index = read_optional(section.get("index"), |field| read_index(field, problems));
         let first = read_weight(section, self.first, problems);
         let second = read_weight(section, self.second, problems);
@@ -51,8 +51,8 @@ impl Weights {
             problems.report(self.latest_spot(section), kind);
             return None;
         };
-        let first = value(first, macro_step?, self.first.0, section, problems);
-        let second = value(second, macro_step?, self.second.0, section, problems);
+        let first = value(first, steps?, self.first.0, section, problems);
+        let second = value(second, steps?, self.second.0, section, problems);
         Some((index, first?, second?))
     }
 
@@ -128,17 +128,17 @@ fn read_index(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Index> {
 
 fn value(
     formula: Formula,
-    macro_step: f64,
+    steps: Steps,
     name: &str,
     section: &Section<'_>,
     problems: &mut Problems<'_>,
-) -> Option<f64> {
+) -> Option<Formula> {
     let field = section.get(name);
     let spot = field
         .as_ref()
         .map_or(section.spot, |field| &field.node.spot);
     formula
-        .at(macro_step, &section.key_of(name))
+        .over(steps, &section.key_of(name))
         .map_err(|kind| problems.report(spot, kind))
         .ok()
 }

@@ -22,6 +22,7 @@ mod reference;
 mod resolve;
 mod resolved;
 mod stability_rules;
+mod step_control;
 mod subsystem;
 mod sweeps;
 #[cfg(test)]
@@ -35,12 +36,14 @@ use std::sync::Arc;
 
 pub use error::{SceneError, SceneErrors};
 pub use error_kind::{Names, SceneErrorKind};
+pub use formula::Formula;
 pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index,
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Order, Otherwise, Output, Panel,
-    Reference, RunSettings, Served, Side, Spring, StabilitySettings, Subsystem, Variant,
+    Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
+    Variant,
 };
 pub use stability_rules::{Warning, warnings};
 pub use subsystem::is_worker_address;
@@ -114,6 +117,13 @@ pub fn parse(text: &str, origin: &str, overrides: &[Override]) -> Result<Scene, 
 }
 
 impl Scene {
+    /// The same with macro steps of one length: studies look at the method, not at the control of its steps.
+    #[must_use]
+    pub fn with_fixed_steps(mut self) -> Self {
+        self.coupling.step_control = None;
+        self
+    }
+
     /// The text of the scene file.
     pub fn text(&self) -> &str {
         self.written.text()

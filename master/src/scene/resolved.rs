@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use linchpin_proto::v1;
 use serde::Serialize;
 
+use super::formula::Formula;
 use super::overrides::Override;
 pub use crate::joint::Kind as JointKind;
 
@@ -22,14 +23,29 @@ pub struct Coupling {
     pub exchanged_degree: usize,
     /// Who evaluates loads whose direction turns with the bodies. Default automatic.
     pub loads: Loads,
-    /// Macro step H in s, greater than 0 and at most the simulated time.
+    /// Macro step H in s, greater than 0 and at most the simulated time; the first one if the steps vary.
     pub macro_step: f64,
+    /// Present if the macro step varies with the error.
+    pub step_control: Option<StepControl>,
     /// Increments of the finite differences. Default automatic.
     pub increment: Increment,
     /// How long columns of the coupling Jacobian are used. Default every-step, with Hermite coupling reuse.
     pub jacobian: Jacobian,
     /// Corrections until they change nothing of note; absent: one, as in S1.
     pub iterations: Option<Iterations>,
+}
+
+/// What a run with variable macro steps keeps to.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct StepControl {
+    /// Error of positions relative to their size.
+    pub tolerance: f64,
+    /// Error in m or rad that is allowed whatever the size; default 1e-3 of the tolerance.
+    pub absolute_tolerance: f64,
+    /// Shortest macro step in s; default 1e-9 of the simulated time.
+    pub least_step: f64,
+    /// Longest macro step in s; default a tenth of the simulated time.
+    pub greatest_step: f64,
 }
 
 impl Coupling {
@@ -51,9 +67,9 @@ pub enum Method {
         /// Follows from beta and gamma: see [`Index`].
         index: Index,
         /// Weight of the velocity in s; default 2 H.
-        beta: f64,
+        beta: Formula,
         /// Weight of the acceleration in s^2; default H^2.
-        gamma: f64,
+        gamma: Formula,
     },
     /// Schweizer & Lu, method 2: weighted multipliers of position, velocity and acceleration.
     Weighted {
@@ -72,7 +88,7 @@ pub enum Method {
     /// The explicit index-1 method of Gu & Asada: (mu d/dt + 1)^2 g = 0.
     Explicit {
         /// Time constant in s, greater than 0.
-        mu: f64,
+        mu: Formula,
     },
     /// Force of a spring and damper in place of the multiplier, on both ends.
     Penalty {

@@ -76,8 +76,9 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         return Vec::new();
     }
     let coupling = &scene.coupling;
+    let macro_step = shortest_step(coupling);
     let warning = match (coupling.method, coupling.degree.checked_sub(1)) {
-        (Method::Explicit { mu }, _) => below_limit_of_mu(coupling.macro_step, mu),
+        (Method::Explicit { mu }, _) => below_limit_of_mu(macro_step, mu.at(macro_step)),
         (
             Method::Hermite { .. }
             | Method::Penalty { .. }
@@ -99,13 +100,24 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
         .collect()
 }
 
+/// A variable step that is unstable is repeated with a shorter one, so what counts is the shortest.
+fn shortest_step(coupling: &Coupling) -> f64 {
+    coupling
+        .step_control
+        .map_or(coupling.macro_step, |control| control.least_step)
+}
+
 fn below_limit(coupling: &Coupling, method: Method, rule: &Rule) -> Option<Warning> {
+    let macro_step = shortest_step(coupling);
     match method {
         Method::Baumgarte {
             index: Index::One,
             beta,
             gamma,
-        } => below_limit_of_gamma(coupling.degree, rule, coupling.macro_step, beta, gamma),
+        } => {
+            let [beta, gamma] = [beta, gamma].map(|formula| formula.at(macro_step));
+            below_limit_of_gamma(coupling.degree, rule, macro_step, beta, gamma)
+        }
         Method::Weighted {
             index: Index::One,
             a,

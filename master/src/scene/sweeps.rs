@@ -1,9 +1,9 @@
 //! Reads the studies over a scene: `[[case]]`, `[converge]` and `[stability]`.
 
-use super::coupling::read_macro_step;
 use super::overrides::{Assignment, Override};
 use super::reader::{FINITE, Field, POSITIVE, Problems, Section};
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
+use super::step_control::read_step;
 use super::written::{Node, Value};
 
 const REFERENCES: [(&str, Reference); 2] = [
@@ -84,7 +84,7 @@ fn read_macro_steps(
     let steps: Vec<Option<f64>> = field
         .items(STEPS, problems)?
         .iter()
-        .map(|item| read_macro_step(item, duration, problems))
+        .map(|item| read_step(item, duration, problems))
         .collect();
     let steps = steps.into_iter().collect::<Option<Vec<f64>>>()?;
     let mut different = steps.clone();

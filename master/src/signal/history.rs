@@ -5,6 +5,7 @@ use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::attitude::{attitude, rotation_vector};
+use super::interpolation_error::ErrorShares;
 
 /// Highest degree `k` of the polynomials of coupling variables.
 pub const MAX_DEGREE: usize = 3;
@@ -29,6 +30,8 @@ pub struct History {
     times: Vec<f64>,
     values: Vec<Vec<f64>>,
     attitudes: Vec<UnitQuaternion<f64>>,
+    /// For each variable the number of points since it has jumped; all points if it has not.
+    smooth_points: Vec<usize>,
 }
 
 /// Which polynomial over the next step.
@@ -62,6 +65,7 @@ impl History {
         let mut times = Vec::with_capacity(highest + 1);
         times.extend((0..kept.len()).map(|point| -(point as f64) * step));
         Self {
+            smooth_points: vec![kept.len(); variables.degrees.len()],
             variables,
             highest,
             times,
@@ -95,6 +99,20 @@ impl History {
         self.times.clone_from(&other.times);
         self.values.clone_from(&other.values);
         self.attitudes.clone_from(&other.attitudes);
+        self.smooth_points.clone_from(&other.smooth_points);
+    }
+
+    /// The first `variables` variables jump in the next step: their extrapolation holds the newest value, their interpolation the
+    /// value at the end, and from there their degree grows as at the start.
+    pub fn restart(&mut self, variables: usize) {
+        self.smooth_points[..variables].fill(0);
+    }
+
+    /// What the difference between interpolation and extrapolation at the end of a step of this length tells of a variable.
+    pub fn error_shares(&self, variable: usize, step: f64) -> ErrorShares {
+        let extrapolated = self.past_nodes(variable, false);
+        let interpolated = self.past_nodes(variable, true);
+        ErrorShares::new(&self.times, extrapolated, interpolated, step)
     }
 
     /// Moves on by one macro step of the given length; `values` belong to its end.
@@ -112,6 +130,9 @@ impl History {
         newest.extend_from_slice(values);
         self.times.insert(0, 0.0);
         self.values.insert(0, newest);
+        for points in &mut self.smooth_points {
+            *points = (*points + 1).min(self.times.len());
+        }
         for rotation in 0..self.variables.rotations.len() {
             self.move_reference(rotation);
         }
@@ -147,8 +168,8 @@ impl History {
     fn past_nodes(&self, variable: usize, has_end: bool) -> usize {
         let most = self.variables.degrees[variable] + 1;
         match has_end {
-            false => self.times.len().min(most),
-            true => (self.times.len() + 1).min(most) - 1,
+            false => self.smooth_points[variable].clamp(1, most),
+            true => self.smooth_points[variable].min(most - 1),
         }
     }
 

@@ -1,4 +1,8 @@
-//! The macro-time grid. No other place adds macro steps up.
+//! Macro time: the equidistant grid, and the plan of a run. No other place adds macro steps up.
+
+mod plan;
+
+pub use plan::TimePlan;
 
 /// The points `T_0 < T_1 < ... < T_n` with `T_0 = t_start` and `T_n = t_end` exactly.
 ///

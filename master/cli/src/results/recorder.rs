@@ -33,11 +33,15 @@ pub struct RunRecorder {
     motion: Option<Motion>,
     bar: ProgressBar,
     t_start: f64,
+    t_end: f64,
     started: Instant,
 }
 
 /// The table of results.
 const TABLE: &str = "results.csv";
+
+/// Parts of the simulated time that the progress bar counts.
+const BAR_LENGTH: u64 = 10_000;
 
 /// Pause between two drawings of the progress bar.
 const REFRESH: Duration = Duration::from_millis(100);
@@ -61,6 +65,7 @@ impl RunRecorder {
                 ProgressBar::hidden()
             },
             t_start: scene.t_start,
+            t_end: scene.t_end,
             started: Instant::now(),
         }
     }
@@ -115,7 +120,7 @@ impl RunRecorder {
 
 fn bar() -> ProgressBar {
     let template = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
-    let bar = ProgressBar::new(0);
+    let bar = ProgressBar::new(BAR_LENGTH);
     match ProgressStyle::with_template(template) {
         Ok(style) => bar.with_style(style),
         // The template is fixed; the plain style still shows how far the run is.
@@ -157,13 +162,13 @@ impl Recorder for RunRecorder {
         self.write(row.values())
     }
 
-    fn progress(&mut self, done: usize, all: usize, t: f64) {
-        if self.bar.is_hidden() || (done < all && self.bar.elapsed() < REFRESH) {
+    fn progress(&mut self, t: f64) {
+        if self.bar.is_hidden() || (t < self.t_end && self.bar.elapsed() < REFRESH) {
             return;
         }
         let speed = (t - self.t_start) / self.started.elapsed().as_secs_f64();
-        self.bar.set_length(all as u64);
-        self.bar.set_position(done as u64);
+        let share = (t - self.t_start) / (self.t_end - self.t_start);
+        self.bar.set_position((share * BAR_LENGTH as f64) as u64);
         self.bar
             .set_message(format!("{t:.4} s ({speed:.3} x real time)"));
     }

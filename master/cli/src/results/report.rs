@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use linchpin_master::results::Statistics;
-use linchpin_master::scene::{Method, Scene};
+use linchpin_master::results::{Statistics, StepStatistics};
+use linchpin_master::scene::{Method, Scene, StepControl};
 use serde::Serialize;
 
 use super::Trace;
@@ -39,6 +39,7 @@ struct Json<'a> {
     t_start: f64,
     t_end: f64,
     macro_step: f64,
+    step_control: Option<StepControl>,
     degree: usize,
     exchanged_degree: usize,
     method: Method,
@@ -78,6 +79,7 @@ impl RunReport {
             t_start: scene.t_start,
             t_end: scene.t_end,
             macro_step: scene.coupling.macro_step,
+            step_control: scene.coupling.step_control,
             degree: scene.coupling.degree,
             exchanged_degree: scene.coupling.exchanged_degree,
             method: scene.coupling.method,
@@ -153,6 +155,9 @@ impl RunReport {
             verdicts.poor,
             verdicts.uncorrected
         )?;
+        if let Some(steps) = &statistics.steps {
+            write_steps(steps, text)?;
+        }
         writeln!(text, "  exchanges    {:>10}", statistics.exchanges)?;
         writeln!(
             text,
@@ -206,6 +211,20 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
         )?;
     }
     Ok(())
+}
+
+fn write_steps(steps: &StepStatistics, text: &mut String) -> std::fmt::Result {
+    write!(text, "  rejected     {:>10}", steps.rejected)?;
+    for (what, step) in [("shortest", steps.shortest), ("longest", steps.longest)] {
+        if let Some(step) = step {
+            write!(
+                text,
+                "   {what} step {:.3e} s at t = {:.6} s",
+                step.length, step.t
+            )?;
+        }
+    }
+    writeln!(text)
 }
 
 fn as_json<'a>(

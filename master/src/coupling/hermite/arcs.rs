@@ -8,7 +8,7 @@ use super::variant::Variant;
 use crate::coupling::layout::Layout;
 use crate::coupling::unknowns::Unknowns;
 use crate::signal::attitude::{attitude, rotation_of_change};
-use crate::signal::{Curve, Curves, History, vector_at};
+use crate::signal::{Curve, Curves, ErrorShares, History, vector_at};
 
 /// What a variable is, and so what its curve is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +43,7 @@ pub struct Arcs {
     past: Vec<SharePolynomial>,
     jerks: Vec<f64>,
     past_length: f64,
+    has_past: bool,
     history: History,
     rotations: Vec<usize>,
     attitudes: Vec<UnitQuaternion<f64>>,
@@ -146,6 +147,7 @@ impl Arcs {
             past: starts.iter().map(constant).collect(),
             jerks: vec![0.0; size],
             past_length: 1.0,
+            has_past: false,
             starts,
             rotations,
             attitudes: history.attitudes().to_vec(),
@@ -162,8 +164,24 @@ impl Arcs {
         self.past.clone_from(&other.past);
         self.jerks.clone_from(&other.jerks);
         self.past_length = other.past_length;
+        self.has_past = other.has_past;
         self.history.copy_from(&other.history);
         self.attitudes.clone_from(&other.attitudes);
+    }
+
+    /// What the difference between corrected and predicted values tells of the multipliers.
+    pub fn load_error(&self) -> ErrorShares {
+        match self.has_past {
+            true => {
+                ErrorShares::of_continuation(self.shapes.degrees[0], self.past_length / self.length)
+            }
+            false => ErrorShares::WITHOUT_PAST,
+        }
+    }
+
+    /// What the difference between corrected and predicted end value tells of a connected signal.
+    pub fn signal_error(&self, variable: usize, step: f64) -> ErrorShares {
+        self.history.error_shares(variable, step)
     }
 
     /// Rate and second derivative of a variable of motion at the present macro point.
@@ -295,6 +313,7 @@ impl Arcs {
         }
         std::mem::swap(&mut self.past, &mut self.curves);
         self.past_length = self.length;
+        self.has_past = true;
         self.history.push(self.length, ends);
     }
 

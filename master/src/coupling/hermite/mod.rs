@@ -20,9 +20,11 @@
 //!
 //! * [`variant`]: which conditions;
 //! * [`arcs`]: the curves of all variables;
+//! * [`estimate`]: the error of a step;
 //! * [`stack`]: the equations of all unknowns.
 
 mod arcs;
+mod estimate;
 mod held;
 mod sample;
 mod share;
@@ -32,8 +34,10 @@ mod variant;
 use super::columns::{Columns, Look};
 use super::condition::{SingularRow, check_finite};
 use super::corrector::{Again, Corrector};
+use super::error_estimate::{ErrorScales, Estimate};
 use super::layout::Over;
 use super::measure::{Change, Measure};
+use super::position_error::PositionErrors;
 use super::promise::Promise;
 use super::solve::{LinearSolver, SingularColumn};
 use super::system::{Point, System};
@@ -82,6 +86,9 @@ pub struct Hermite {
     measure: Measure,
     /// Largest change of the unknowns of each variable.
     changes: Vec<f64>,
+    /// Errors of the unknowns of multipliers as positions feel them.
+    errors: Vec<f64>,
+    position_errors: PositionErrors,
 }
 
 /// The conditions at one end of the step and the columns of the workers for them.
@@ -140,6 +147,8 @@ impl Hermite {
             sample,
             settled,
             memory: vec![0.0; size],
+            errors: change.clone(),
+            position_errors: PositionErrors::new(size),
             change,
             accelerations: vec![0.0; size],
             promise: Promise::new(size),
@@ -255,6 +264,13 @@ impl Corrector for Hermite {
         self.solve(parts, step)
     }
 
+    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
+        self.estimate(parts, step, scales)
+    }
+
+    /// Nothing of a polynomial comes from steps before.
+    fn restart(&mut self) {}
+
     fn request_advance(&mut self, parts: &mut Parts, _step: MacroStep) {
         let mut over = Over {
             curves: &self.arcs,
@@ -266,13 +282,17 @@ impl Corrector for Hermite {
         }
     }
 
-    fn move_on(&mut self, _step: MacroStep) {
+    fn move_on(&mut self, step: MacroStep) {
+        self.start.columns.keep_responses(0.0);
+        self.end.columns.keep_responses(step.length);
         self.before.copy_from(&self.arcs);
         self.arcs.move_on(self.sample.ends(), &self.accelerations);
         self.read_starts();
     }
 
     fn move_back(&mut self) {
+        self.start.columns.forget_responses();
+        self.end.columns.forget_responses();
         std::mem::swap(&mut self.arcs, &mut self.before);
         self.sample.take(&self.arcs);
         self.read_starts();

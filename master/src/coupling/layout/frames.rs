@@ -89,9 +89,9 @@ impl Layout {
 
     /// Inputs that turn with the marker.
     fn vector_inputs(&self, subsystem: usize, marker: &Marker) -> Result<Vec<Vec<usize>>, Partial> {
-        let parts: &[std::ops::Range<usize>] = match marker.kind() {
-            MarkerKind::Planar => &[0..2],
-            MarkerKind::Spatial => &[0..3, 3..6],
+        let parts: &[(usize, usize)] = match marker.kind() {
+            MarkerKind::Planar => &[(0, 2)],
+            MarkerKind::Spatial => &[(0, 3), (3, 6)],
             MarkerKind::Scalar | MarkerKind::Unspecified => &[],
         };
         let range = self.input_range(subsystem);
@@ -102,7 +102,8 @@ impl Layout {
             found.filter(|&number| self.inputs[number].is_perturbed)
         };
         let mut vectors = Vec::new();
-        for part in parts {
+        for &(first, end) in parts {
+            let part = first..end;
             let names = marker.load.get(part.clone()).unwrap_or_default().iter();
             let driven: Vec<usize> = names
                 .filter_map(|name| find(&|input| !input.is_joint_input && input.name == *name))

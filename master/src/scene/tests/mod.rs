@@ -9,6 +9,7 @@ mod properties;
 mod reference_mistakes;
 mod settings;
 mod stability;
+mod step_control;
 
 use super::{Scene, SceneError, SceneErrors, parse};
 

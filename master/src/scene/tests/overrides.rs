@@ -54,8 +54,8 @@ fn multiples_of_the_macro_step_follow_it() {
         .unwrap();
     let expected = Method::Baumgarte {
         index: Index::Two,
-        beta: 2.5e-4,
-        gamma: 0.0,
+        beta: 2.5e-4.into(),
+        gamma: 0.0.into(),
     };
     assert_eq!(finer.coupling.method, expected);
 }
@@ -159,8 +159,8 @@ name = \"as it is\"
     let index_1 = scene.with_case(&scene.cases[0]).unwrap();
     let expected = Method::Baumgarte {
         index: Index::One,
-        beta: 2e-3,
-        gamma: 1e-3 * 1e-3,
+        beta: 2e-3.into(),
+        gamma: (1e-3 * 1e-3).into(),
     };
     assert_eq!(index_1.coupling.method, expected);
     let weighted = scene.with_case(&scene.cases[1]).unwrap();

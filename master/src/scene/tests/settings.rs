@@ -31,8 +31,8 @@ fn the_example_resolves_to_what_it_says() {
     assert_eq!(scene.coupling.increment, Increment::Automatic);
     let expected = Method::Baumgarte {
         index: Index::Two,
-        beta: 2e-3,
-        gamma: 0.0,
+        beta: 2e-3.into(),
+        gamma: 0.0.into(),
     };
     assert_eq!(scene.coupling.method, expected);
     let [mass1, mass2] = &scene.subsystems[..] else {
@@ -73,7 +73,11 @@ fn a_file_reads_like_its_text() {
 
 #[test]
 fn the_index_follows_from_the_parameters() {
-    let baumgarte = |index, beta, gamma| Method::Baumgarte { index, beta, gamma };
+    let baumgarte = |index, beta: f64, gamma: f64| Method::Baumgarte {
+        index,
+        beta: beta.into(),
+        gamma: gamma.into(),
+    };
     let weighted = |index, a, b| Method::Weighted { index, a, b };
     let (h, h2) = (1e-3, 1e-3 * 1e-3);
     for (settings, expected) in [
@@ -138,7 +142,7 @@ fn methods_without_an_index_have_their_own_parameters() {
     let mu = 10.0 * 1e-3;
     assert_eq!(
         method("method = 'explicit'\nmu = '10H'"),
-        Method::Explicit { mu }
+        Method::Explicit { mu: mu.into() }
     );
     let (stiffness, damping) = (3e5, 70.0);
     let jacobi = method("method = 'jacobi'\nstiffness = 3e5\ndamping = 70");

@@ -194,10 +194,11 @@ fn run(
     macro_step: f64,
     recorder: &mut impl Recorder<Error = std::convert::Infallible>,
 ) -> Result<Result<Statistics, String>, StudyError> {
-    let mut scene = variant.scene.with(&[Override {
+    let scene = variant.scene.with(&[Override {
         key: "coupling.macro_step".to_owned(),
         value: format!("{macro_step:?}"),
     }])?;
+    let mut scene = scene.with_fixed_steps();
     scene.output = variant.scene.output.clone();
     let connector = Connector::new(Place::InProcess);
     match simulate(&scene, &connector, &Options::default(), recorder) {

@@ -46,7 +46,7 @@ impl BlowUp {
             ..Options::default()
         };
         let mut simulation = CoSimulation::start(&scene, connect, &options)?;
-        let steps = simulation.grid().len();
+        let steps = simulation.steps_planned();
         match self.growth(&mut simulation) {
             Ok(growth) => Ok(Simulated { growth, steps }),
             Err(error) => divergence(error).map(|_| Simulated {
@@ -62,7 +62,7 @@ impl BlowUp {
         let columns = self.columns.iter();
         let places = columns.filter_map(|(column, _)| names.iter().position(|name| name == column));
         let mut extents: Vec<Extent> = places.map(Extent::of_column).collect();
-        let steps = simulation.grid().len();
+        let steps = simulation.steps_planned();
         let part = steps.div_ceil(PART);
         let first_size = largest(simulation, &extents);
         while simulation.macro_step()? {

@@ -69,7 +69,7 @@ impl Grid {
     /// The scene at one point.
     fn scene(&self, scene: &Scene, (x, y): (f64, f64)) -> Result<Scene, StudyError> {
         let overrides = [self.x.overrides(x), self.y.overrides(y)].concat();
-        Ok(scene.with(&overrides)?)
+        Ok(scene.with(&overrides)?.with_fixed_steps())
     }
 }
 

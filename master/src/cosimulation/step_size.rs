@@ -1,0 +1,198 @@
+//! The length of a variable macro step: accepted or repeated, and how long the next one is.
+
+use crate::cosimulation::{Options, Parts};
+use crate::coupling::error_estimate::{ErrorScales, Estimate};
+use crate::error::RunError;
+use crate::results::StepStatistics;
+use crate::scene::{Method, Scene, StepControl};
+use crate::time::{MacroStep, TimePlan};
+
+/// Share of the step that would just be accepted.
+const SAFETY: f64 = 0.9;
+
+/// Exponents of the controller, per order: proportional-integral, so that the step length does not swing.
+const INTEGRAL: f64 = 0.7;
+const PROPORTIONAL: f64 = 0.4;
+
+/// A step is at most this many times as long as the one before. More would make the polynomials over unequal steps unstable.
+const MOST_GROWTH: f64 = 2.0;
+
+/// A repeated step has at least this share of the rejected one.
+const MOST_SHRINKING: f64 = 0.1;
+
+/// A step that could be longer by no more than this factor keeps its length: histories and columns of equal steps are worth more.
+const KEEP_TO: f64 = 1.25;
+
+/// A step that should be shorter by no more than this factor keeps its length.
+const KEEP_FROM: f64 = 0.95;
+
+/// Where the solution is smooth, the multipliers of a repeated step change less by at least this power of its length.
+const SMOOTH_ORDER: f64 = 0.5;
+
+/// Smallest scaled error that the controller remembers.
+const LEAST_ERROR: f64 = 1e-4;
+
+/// Chooses the lengths of the macro steps.
+pub struct StepSize {
+    control: StepControl,
+    scales: ErrorScales,
+    wish: f64,
+    /// Scaled error of the last accepted step.
+    before: f64,
+    /// The last attempt at the present step.
+    rejected: Option<Rejected>,
+    statistics: StepStatistics,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Rejected {
+    length: f64,
+    change: f64,
+}
+
+/// What becomes of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Judgement {
+    /// It stays.
+    Accepted,
+    /// It is repeated.
+    Repeat {
+        /// With this length.
+        length: f64,
+        /// Whether the solution has jumped, so that what lies before the step says nothing about it.
+        has_jumped: bool,
+    },
+}
+
+impl StepSize {
+    /// From a first step of length `first`, at a start whose outputs are known.
+    pub fn new(control: StepControl, first: f64, parts: &Parts) -> Self {
+        Self {
+            scales: ErrorScales::new(&control, parts),
+            control,
+            wish: first,
+            before: 1.0,
+            rejected: None,
+            statistics: StepStatistics::default(),
+        }
+    }
+
+    /// What error is allowed.
+    pub fn scales(&self) -> &ErrorScales {
+        &self.scales
+    }
+
+    /// Length of the next step in s.
+    pub fn wish(&self) -> f64 {
+        self.wish
+    }
+
+    /// Steps so far.
+    pub fn statistics(&self) -> &StepStatistics {
+        &self.statistics
+    }
+
+    /// Accepts the step or says how long its repetition is.
+    pub fn judge(
+        &mut self,
+        step: MacroStep,
+        estimate: &Estimate,
+        parts: &Parts,
+    ) -> Result<Judgement, RunError> {
+        if estimate.scaled <= 1.0 {
+            self.accept(step, estimate);
+            return Ok(Judgement::Accepted);
+        }
+        if step.length <= self.control.least_step {
+            return Err(RunError::LeastStep {
+                t: step.start,
+                step: step.length,
+                error: estimate.scaled,
+                tolerance: self.control.tolerance,
+                variable: estimate.suspect_name(parts),
+            });
+        }
+        let has_jumped = self.rejected.is_some_and(|earlier| {
+            let expected = (step.length / earlier.length).powf(SMOOTH_ORDER);
+            estimate.change > expected * earlier.change
+        });
+        self.rejected = Some(Rejected {
+            length: step.length,
+            change: estimate.change,
+        });
+        self.statistics.rejected += 1;
+        let factor = SAFETY * estimate.scaled.powf(-1.0 / estimate.order as f64);
+        let length = step.length * factor.clamp(MOST_SHRINKING, SAFETY);
+        Ok(Judgement::Repeat {
+            length: length.max(self.control.least_step),
+            has_jumped,
+        })
+    }
+
+    fn accept(&mut self, step: MacroStep, estimate: &Estimate) {
+        let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
+        let scaled = estimate.scaled.max(LEAST_ERROR);
+        let possible = SAFETY * power(scaled, -1.0);
+        let smooth = SAFETY * power(scaled, -INTEGRAL) * power(self.before, PROPORTIONAL);
+        let most = match self.rejected.take() {
+            Some(_) => 1.0,
+            None => MOST_GROWTH,
+        };
+        let factor = match possible {
+            KEEP_FROM..=KEEP_TO => 1.0,
+            _ => smooth.clamp(MOST_SHRINKING, most),
+        };
+        let StepControl {
+            least_step,
+            greatest_step,
+            ..
+        } = self.control;
+        self.wish = (step.length * factor).clamp(least_step, greatest_step);
+        self.before = scaled;
+        self.statistics.accept(step);
+    }
+
+    /// Takes the outputs at the macro point that is reached.
+    pub fn observe(&mut self, parts: &Parts) {
+        self.scales.observe(parts);
+    }
+}
+
+/// Where the macro points lie: as the scene says, unless a study gives the steps.
+pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
+    let (start, end, first) = (scene.t_start, scene.t_end, scene.coupling.macro_step);
+    match (&options.step_lengths, scene.coupling.step_control) {
+        (Some(lengths), _) => TimePlan::given(start, end, lengths.clone()),
+        (None, Some(_)) => TimePlan::variable(start, end, first),
+        (None, None) => TimePlan::equidistant(start, end, first),
+    }
+}
+
+/// The control of the steps, if the scene asks for one; outputs at the start are known.
+pub(super) fn step_size_of(
+    scene: &Scene,
+    options: &Options,
+    parts: &Parts,
+) -> Result<Option<StepSize>, RunError> {
+    let Some(control) = scene.coupling.step_control else {
+        return Ok(None);
+    };
+    if options.step_lengths.is_some() {
+        return Ok(None);
+    }
+    match scene.coupling.method {
+        Method::Baumgarte { .. } | Method::Weighted { .. } | Method::Hermite { .. } => Ok(Some(
+            StepSize::new(control, scene.coupling.macro_step, parts),
+        )),
+        Method::Explicit { .. }
+        | Method::Penalty { .. }
+        | Method::Jacobi { .. }
+        | Method::GaussSeidel { .. } => {
+            let message = "the macro step of explicit, penalty, jacobi and gauss-seidel does not vary: they have no corrector that tells an error before a step is taken";
+            let help = "choose coupling.method = \"hermite\", \"weighted\" or \"baumgarte\", or leave coupling.tolerance out";
+            Err(scene
+                .error("coupling.tolerance", message, Some(help.into()))
+                .into())
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Errors of positions by the errors of the multipliers, and what a step leaves of the joints open.
+
+use super::columns::Columns;
+use super::error_estimate::{ErrorScales, Estimate, Suspect};
+use super::system::{System, motion_of};
+use crate::cosimulation::Parts;
+use crate::joint::Level;
+use crate::time::MacroStep;
+
+/// A correction that was solved for, as far as its error is concerned.
+#[derive(Clone, Copy)]
+pub struct Correction<'a> {
+    /// The system that was solved.
+    pub system: &'a System,
+    /// Its columns.
+    pub columns: &'a Columns,
+    /// Change of all unknowns from their prediction.
+    pub change: &'a [f64],
+    /// Errors of the unknowns of multipliers as positions feel them; 0 for other unknowns.
+    pub errors: &'a [f64],
+    /// Share of an error in the change.
+    pub share: f64,
+    /// The power of the step with which errors of positions fall.
+    pub order: usize,
+}
+
+/// Memory for the estimate.
+#[derive(Debug, Clone, Default)]
+pub struct PositionErrors {
+    raised: Vec<f64>,
+    shift: Vec<f64>,
+}
+
+impl PositionErrors {
+    /// For a system with `size` rows.
+    pub fn new(size: usize) -> Self {
+        Self {
+            raised: Vec::new(),
+            shift: vec![0.0; size],
+        }
+    }
+
+    /// Adds the errors of the positions at all joints, which are the columns times the errors of the multipliers, and the openings of the
+    /// joints at the end of the step.
+    pub fn estimate(
+        &mut self,
+        parts: &Parts,
+        step: MacroStep,
+        correction: Correction<'_>,
+        scales: &ErrorScales,
+        estimate: &mut Estimate,
+    ) {
+        let system = correction.system;
+        system.raise(&parts.layout, correction.errors, &mut self.raised);
+        for number in 0..parts.layout.joints.len() {
+            self.estimate_joint(parts, number, step, correction, scales, estimate);
+        }
+        system.shift(Level::Position, correction.change, &mut self.shift);
+        let rows = parts.layout.rows.len();
+        let openings = system.residual(Level::Position).iter().zip(&self.shift);
+        for (row, (predicted, shift)) in openings.take(rows).enumerate() {
+            let allowed = scales.allowed_of_opening(&parts.layout, row);
+            let scaled = (predicted + shift).abs() / allowed;
+            estimate.add(scaled, correction.order, Suspect::Opening(row));
+        }
+    }
+
+    /// What closes the joint again after errors of earlier steps is no error of this one.
+    fn estimate_joint(
+        &self,
+        parts: &Parts,
+        number: usize,
+        step: MacroStep,
+        correction: Correction<'_>,
+        scales: &ErrorScales,
+        estimate: &mut Estimate,
+    ) {
+        let [length, angle] = inherited_opening(parts, number, step);
+        for end in &parts.layout.joints[number].ends {
+            let subsystem = end.subsystem;
+            let columns = correction.system.columns_of(&parts.layout, subsystem);
+            for output in end.positions() {
+                let responses = columns.clone().filter_map(|column| {
+                    let response = correction.columns.all()[column].derivatives.get(output)?;
+                    Some(response * self.raised[column])
+                });
+                let inherited = match end.coordinates().contains(&output) {
+                    true => length,
+                    false => angle,
+                };
+                let error = responses.sum::<f64>().abs() - correction.share.abs() * inherited;
+                let scaled = error / scales.allowed_of_output(subsystem, output);
+                estimate.add(
+                    scaled,
+                    correction.order,
+                    Suspect::Output { subsystem, output },
+                );
+            }
+        }
+    }
+}
+
+/// How far a joint would be open at the end of the step if no load closed it, in m and in rad.
+fn inherited_opening(parts: &Parts, number: usize, step: MacroStep) -> [f64; 2] {
+    let layout = &parts.layout;
+    let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+    let motion = motion_of(layout, number, outputs);
+    let mut openings = [0.0_f64; 2];
+    for condition in layout.joints[number].joint.conditions() {
+        let values = condition.values(layout.level, &motion);
+        let opening = &mut openings[usize::from(!condition.is_length())];
+        *opening = opening.max(values[0].abs() + step.length * values[1].abs());
+    }
+    openings
+}

@@ -1,0 +1,201 @@
+//! The macro points of a run, known in advance or found step by step.
+
+use super::{MacroGrid, MacroStep, ROUNDING};
+
+/// Where a run stands and which macro step it takes from there. No other place adds macro steps up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TimePlan {
+    rule: Rule,
+    t_end: f64,
+    done: usize,
+    t: f64,
+    step: Option<MacroStep>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Rule {
+    /// All macro points are known.
+    Grid(MacroGrid),
+    /// Every step has the length that is wished for, as far as the end allows.
+    Free,
+    /// The lengths of the steps are given.
+    Given(Vec<f64>),
+}
+
+impl TimePlan {
+    /// Steps of one length, see [`MacroGrid`].
+    pub fn equidistant(t_start: f64, t_end: f64, macro_step: f64) -> Self {
+        let grid = MacroGrid::new(t_start, t_end, macro_step);
+        let first = grid.step(0);
+        Self::new(Rule::Grid(grid), t_start, t_end, first)
+    }
+
+    /// Steps whose lengths are found on the way, the first `macro_step` long. The last point is `t_end` exactly; where the next wish
+    /// would leave a rest, the rest of the time is halved, so that no step is longer than wished for or shorter than half of that.
+    pub fn variable(t_start: f64, t_end: f64, macro_step: f64) -> Self {
+        let first = free_step(t_start, t_end, macro_step);
+        Self::new(Rule::Free, t_start, t_end, first)
+    }
+
+    /// Steps of the given lengths, as a run with variable steps has found them.
+    pub fn given(t_start: f64, t_end: f64, lengths: Vec<f64>) -> Self {
+        let first = lengths
+            .first()
+            .and_then(|&length| free_step(t_start, t_end, length));
+        Self::new(Rule::Given(lengths), t_start, t_end, first)
+    }
+
+    fn new(rule: Rule, t_start: f64, t_end: f64, step: Option<MacroStep>) -> Self {
+        Self {
+            rule,
+            t_end,
+            done: 0,
+            t: t_start,
+            step,
+        }
+    }
+
+    /// Time of the present macro point in s.
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Number of macro steps done.
+    pub fn steps_done(&self) -> usize {
+        self.done
+    }
+
+    /// Number of macro steps of the whole plan; those done so far if the steps vary.
+    pub fn steps_planned(&self) -> usize {
+        match &self.rule {
+            Rule::Grid(grid) => grid.len(),
+            Rule::Free => self.done,
+            Rule::Given(lengths) => lengths.len(),
+        }
+    }
+
+    /// The step from the present macro point; `None` at the end.
+    pub fn step(&self) -> Option<MacroStep> {
+        self.step
+    }
+
+    /// Takes a step that is shorter than the present one, from the same macro point, in its place.
+    pub fn shorten(&mut self, length: f64) -> MacroStep {
+        let step = step_within(self.t, self.t_end, length);
+        self.step = Some(step);
+        step
+    }
+
+    /// The step after the present one, with the length that is wished for where steps vary; `None` if the present one reaches the end.
+    pub fn following(&self, wish: f64) -> Option<MacroStep> {
+        let next = self.done + 1;
+        let start = self.step?.end;
+        match &self.rule {
+            Rule::Grid(grid) => grid.step(next),
+            Rule::Free => free_step(start, self.t_end, wish),
+            Rule::Given(lengths) => free_step(start, self.t_end, *lengths.get(next)?),
+        }
+    }
+
+    /// Moves on to the end of the present step; `following` is the one from there.
+    pub fn move_on(&mut self, following: Option<MacroStep>) {
+        if let Some(step) = self.step {
+            self.t = step.end;
+            self.done += 1;
+        }
+        self.step = following;
+    }
+
+    /// Whether the last macro point is reached.
+    pub fn is_finished(&self) -> bool {
+        self.step.is_none()
+    }
+}
+
+/// A step from `start`, if that is not the end.
+fn free_step(start: f64, t_end: f64, wish: f64) -> Option<MacroStep> {
+    (start < t_end).then(|| step_within(start, t_end, wish))
+}
+
+/// A step from `start`, shorter than wished for if the end is near.
+fn step_within(start: f64, t_end: f64, wish: f64) -> MacroStep {
+    let rest = t_end - start;
+    let share = rest / wish;
+    let (length, end) = if share <= 1.0 + ROUNDING {
+        (rest, t_end)
+    } else if share < 2.0 {
+        (0.5 * rest, start + 0.5 * rest)
+    } else {
+        (wish, start + wish)
+    };
+    MacroStep { start, length, end }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn lengths(mut plan: TimePlan, wishes: impl IntoIterator<Item = f64>) -> Vec<f64> {
+        let mut lengths = Vec::new();
+        let mut wishes = wishes.into_iter();
+        while let Some(step) = plan.step() {
+            lengths.push(step.length);
+            let wish = wishes.next().unwrap_or(step.length);
+            let following = plan.following(wish);
+            plan.move_on(following);
+        }
+        lengths
+    }
+
+    #[test]
+    fn the_end_leaves_no_tiny_step() {
+        assert_eq!(
+            lengths(TimePlan::variable(0.0, 1.0625, 0.5), []),
+            [0.5, 0.28125, 0.28125]
+        );
+        assert_eq!(lengths(TimePlan::variable(0.0, 1.0, 0.5), []), [0.5, 0.5]);
+        assert_eq!(
+            lengths(TimePlan::variable(0.0, 1.0, 0.125), [0.25, 0.5]),
+            [0.125, 0.25, 0.3125, 0.3125]
+        );
+    }
+
+    #[test]
+    fn a_step_that_is_repeated_is_counted_once() {
+        let mut plan = TimePlan::variable(1.0, 2.0, 0.25);
+        let repeated = plan.shorten(0.125);
+        assert_eq!(Some(repeated), plan.step());
+        plan.move_on(plan.following(0.125));
+        assert_eq!((plan.t(), plan.steps_done()), (1.125, 1));
+        assert_eq!(plan.step().map(|step| step.start), Some(1.125));
+    }
+
+    proptest! {
+        #[test]
+        fn any_plan_ends_exactly(start in -10f64..10.0, span in 1e-3f64..10.0, wishes in proptest::collection::vec(1e-3f64..1.0, 1..40)) {
+            let end = start + span;
+            let wish = |share: f64| share * span;
+            let mut plan = TimePlan::variable(start, end, wish(wishes[0]));
+            let mut wishes = wishes.iter().copied().cycle();
+            let mut wished = wish(wishes.next().unwrap_or(1.0));
+            let mut t = start;
+            while let Some(step) = plan.step() {
+                prop_assert_eq!(step.start, t);
+                prop_assert!(step.length <= wished * (1.0 + 1e-8) && step.length > 0.49 * wished.min(end - t));
+                t = step.end;
+                wished = wish(wishes.next().unwrap_or(1.0));
+                plan.move_on(plan.following(wished));
+            }
+            prop_assert_eq!(t, end);
+            prop_assert!(plan.is_finished());
+        }
+
+        #[test]
+        fn given_lengths_make_the_same_plan(span in 1e-3f64..10.0, shares in proptest::collection::vec(1e-2f64..1.0, 1..40)) {
+            let wishes = shares.iter().map(|share| share * span);
+            let found = lengths(TimePlan::variable(0.0, span, shares[0] * span), wishes);
+            prop_assert_eq!(&lengths(TimePlan::given(0.0, span, found.clone()), []), &found);
+        }
+    }
+}

@@ -1,0 +1,225 @@
+//! `scenes/hard` against closed forms and a monolithic solution.
+//!
+//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table` prints the table of docs/step-size.md.
+
+use linchpin::connect::Place;
+use linchpin_master::cosimulation::Options;
+use linchpin_master::scene::Scene;
+use linchpin_models::reference::{DoublePendulum, GroundHinge, Link};
+use linchpin_tests::errors::closed_form;
+use linchpin_tests::runs::{Trajectory, run, try_run};
+use linchpin_tests::scenes::with_settings;
+
+/// Errors at the end and the largest ones over time, of all positions, each relative to the largest position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Error {
+    end: f64,
+    largest: f64,
+}
+
+/// The positions of a scene and their exact values at all macro points of a run.
+type Exact = fn(&Scene, &Trajectory) -> Vec<(Vec<f64>, Vec<f64>)>;
+
+fn linear(scene: &Scene, trajectory: &Trajectory) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let exact = closed_form(scene);
+    let column = |subsystem: &linchpin_master::scene::Subsystem| {
+        let name = format!("{}.x", subsystem.name);
+        let times = trajectory.column("t").into_iter();
+        let exact = times.map(|t| exact(&name, t).unwrap()).collect();
+        (trajectory.column(&name), exact)
+    };
+    scene.subsystems.iter().map(column).collect()
+}
+
+fn heavy_end(_: &Scene, trajectory: &Trajectory) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let link = |m, inertia, length| Link { m, inertia, length };
+    let pendulum = DoublePendulum {
+        links: [link(0.037, 0.002, 0.6), link(37.0, 1.9, 0.8)],
+        hinge: GroundHinge {
+            spring: 2.3e3,
+            damping: 310.0,
+            rest_angle: -0.2,
+        },
+        gravity: 9.81,
+        angles: [-0.9, -1.3],
+        rates: [0.0; 2],
+    };
+    let motions = pendulum.motions(&trajectory.column("t")).unwrap();
+    let column = |number: usize| {
+        let name = format!("link{}.angle", number + 1);
+        let exact = motions.iter().map(|motion| motion.angles[number]);
+        (trajectory.column(&name), exact.collect())
+    };
+    vec![column(0), column(1)]
+}
+
+fn error(exact: Exact, scene: &Scene, trajectory: &Trajectory) -> Error {
+    let mut own = Error {
+        end: 0.0,
+        largest: 0.0,
+    };
+    for (found, exact) in exact(scene, trajectory) {
+        let size = exact
+            .iter()
+            .fold(0.0, |size: f64, value| size.max(value.abs()));
+        for (found, exact) in found.iter().zip(&exact) {
+            own.end = (found - exact).abs() / size;
+            own.largest = own.largest.max(own.end);
+        }
+    }
+    own
+}
+
+/// Integrations with the longest fixed macro step, of those a quarter shorter each, that is as accurate.
+fn cheapest_fixed(exact: Exact, scene: &Scene, wanted: f64) -> (f64, u64) {
+    let mut scene = scene.clone().with_fixed_steps();
+    scene.coupling.macro_step = 0.03 * scene.t_end;
+    loop {
+        let trajectory = try_run(&scene, Place::InProcess, &Options::default());
+        if let Ok(trajectory) = trajectory
+            && error(exact, &scene, &trajectory).largest <= wanted
+        {
+            return (scene.coupling.macro_step, trajectory.integrations);
+        }
+        scene.coupling.macro_step *= 0.75;
+    }
+}
+
+/// A hard scene and how the errors of its positions are found.
+struct Hard {
+    name: &'static str,
+    text: &'static str,
+    exact: Exact,
+}
+
+const STIFF_SPRING: Hard = Hard {
+    name: "stiff-spring",
+    text: include_str!("../../../scenes/hard/stiff-spring.toml"),
+    exact: linear,
+};
+
+const PRELOADED_SPRING: Hard = Hard {
+    name: "preloaded-spring",
+    text: include_str!("../../../scenes/hard/preloaded-spring.toml"),
+    exact: linear,
+};
+
+const MASS_RATIO: Hard = Hard {
+    name: "mass-ratio",
+    text: include_str!("../../../scenes/hard/mass-ratio.toml"),
+    exact: linear,
+};
+
+const HEAVY_END: Hard = Hard {
+    name: "heavy-end",
+    text: include_str!("../../../scenes/hard/heavy-end.toml"),
+    exact: heavy_end,
+};
+
+const METHODS: [&str; 5] = [
+    "method=weighted degree=1",
+    "method=weighted degree=2",
+    "method=weighted degree=3",
+    "method=baumgarte degree=2",
+    "method=hermite",
+];
+
+/// A run with variable steps that meets its tolerance.
+struct Sound {
+    context: String,
+    scene: Scene,
+    trajectory: Trajectory,
+    error: Error,
+}
+
+impl Hard {
+    fn run(&self, coupling: &str, tolerance: f64) -> Sound {
+        let coupling = format!("{coupling} tolerance={tolerance:e}");
+        let scene = with_settings(self.text, &coupling, &[]);
+        let trajectory = run(&scene, Place::InProcess);
+        let error = error(self.exact, &scene, &trajectory);
+        let context = format!("{}, {coupling}: {error:?}", self.name);
+        assert!(error.largest <= 10.0 * tolerance, "{context}");
+        assert!(error.largest >= 1e-3 * tolerance, "{context}: too careful");
+        Sound {
+            context,
+            scene,
+            trajectory,
+            error,
+        }
+    }
+
+    /// A fixed macro step that takes `times` as many integrations is less accurate.
+    fn check(&self, methods: &[&str], times: f64) {
+        for coupling in methods {
+            for tolerance in [1e-4, 1e-6] {
+                let own = self.run(coupling, tolerance);
+                let mut fixed = own.scene.clone().with_fixed_steps();
+                let steps = (own.trajectory.rows.len() - 1) as f64;
+                fixed.coupling.macro_step = fixed.t_end / (times * steps);
+                let Ok(trajectory) = try_run(&fixed, Place::InProcess, &Options::default()) else {
+                    continue;
+                };
+                let least = times * own.trajectory.integrations as f64;
+                assert!(
+                    trajectory.integrations as f64 > 0.8 * least,
+                    "{}",
+                    own.context
+                );
+                let error = error(self.exact, &fixed, &trajectory);
+                assert!(
+                    error.largest > own.error.largest,
+                    "{}: {error:?}",
+                    own.context
+                );
+            }
+        }
+    }
+
+    /// Rows of the table of docs/step-size.md.
+    fn tell(&self) {
+        for coupling in METHODS {
+            for tolerance in [1e-4, 1e-6, 1e-8] {
+                let own = self.run(coupling, tolerance);
+                let (step, fixed) = cheapest_fixed(self.exact, &own.scene, own.error.largest);
+                println!(
+                    "| {} | {coupling} | {tolerance:e} | {:.1e} | {:.1e} | {} | {} | {} | {step:.1e} | {fixed} |",
+                    self.name,
+                    own.error.largest,
+                    own.error.end,
+                    own.trajectory.rows.len() - 1,
+                    own.trajectory.rejected,
+                    own.trajectory.integrations,
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stiff_spring() {
+    STIFF_SPRING.check(&METHODS, 2.0);
+}
+
+#[test]
+fn a_preloaded_spring() {
+    PRELOADED_SPRING.check(&METHODS, 20.0);
+}
+
+#[test]
+fn masses_of_a_gram_and_a_ton() {
+    MASS_RATIO.check(&METHODS, 1.5);
+}
+
+#[test]
+fn a_chain_with_a_heavy_end() {
+    HEAVY_END.check(&METHODS, 2.0);
+}
+
+#[test]
+#[ignore = "prints the table of docs/step-size.md"]
+fn table() {
+    for scene in [STIFF_SPRING, PRELOADED_SPRING, MASS_RATIO, HEAVY_END] {
+        scene.tell();
+    }
+}

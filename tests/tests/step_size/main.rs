@@ -1,0 +1,8 @@
+//! Variable macro steps on hard scenes: the tolerance is met, at less cost than with any fixed step, and rejected steps leave no
+//! trace.
+
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod hard_scenes;
+mod mistakes;
+mod traces;

@@ -1,0 +1,85 @@
+//! Rejected steps leave no trace.
+
+use linchpin::connect::Place;
+use linchpin_master::cosimulation::Options;
+use linchpin_master::scene::Scene;
+use linchpin_tests::runs::{Trajectory, run, try_run};
+use linchpin_tests::scenes::{RADAU5, with_settings};
+
+const STIFF: &str = include_str!("../../../scenes/hard/stiff-spring.toml");
+const HEAVY: &str = include_str!("../../../scenes/hard/heavy-end.toml");
+const CRANK: &str = include_str!("../../../scenes/slider-crank.toml");
+
+/// Scenes in which steps are rejected: exact and adaptive solvers, loads of fixed and of turning direction.
+fn scenes() -> Vec<(&'static str, Scene)> {
+    let stiff = |coupling, others: &[&str]| {
+        with_settings(STIFF, coupling, &[others, &["scene.t_end=0.02"]].concat())
+    };
+    let crank = "method=weighted degree=1 tolerance=1e-5 macro_step=1e-2";
+    vec![
+        ("exact", stiff("tolerance=1e-5 degree=1", &[])),
+        ("radau5", stiff("tolerance=1e-4 degree=2", &[RADAU5])),
+        (
+            "single calls",
+            stiff("tolerance=1e-5 degree=3", &["subsystem.mass1.calls=unary"]),
+        ),
+        (
+            "plane",
+            with_settings(
+                HEAVY,
+                "tolerance=1e-6 macro_step=1e-2",
+                &["scene.t_end=0.2"],
+            ),
+        ),
+        (
+            "turning loads",
+            with_settings(CRANK, crank, &["scene.t_end=0.3"]),
+        ),
+    ]
+}
+
+fn with_steps(scene: &Scene, of: &Trajectory) -> Trajectory {
+    let options = Options {
+        step_lengths: Some(of.column("step")[1..].to_vec()),
+        ..Options::default()
+    };
+    try_run(scene, Place::InProcess, &options).unwrap()
+}
+
+#[test]
+fn a_run_with_the_accepted_steps_from_the_beginning_has_equal_bits() {
+    for (name, scene) in scenes() {
+        let found = run(&scene, Place::InProcess);
+        assert!(found.rejected > 0, "{name} rejects no step");
+        let expected = with_steps(&scene, &found);
+        assert!(found.bits() == expected.bits(), "{name}");
+        assert!(found.integrations > expected.integrations, "{name}");
+    }
+}
+
+#[test]
+fn threads_and_single_calls_change_no_bit() {
+    for (name, scene) in scenes() {
+        let expected = run(&scene, Place::InProcess).bits();
+        assert!(run(&scene, Place::Threads).bits() == expected, "{name}");
+        let mut unary = scene.clone();
+        for subsystem in &mut unary.subsystems {
+            subsystem.calls = linchpin_master::scene::Calls::Unary;
+        }
+        assert!(run(&unary, Place::InProcess).bits() == expected, "{name}");
+    }
+}
+
+/// Every macro point follows from the one before and the length of the step; the last one is the end.
+#[test]
+fn steps_lead_to_the_end() {
+    for (name, scene) in scenes() {
+        let run = run(&scene, Place::InProcess);
+        let (t, steps) = (run.column("t"), run.column("step"));
+        for (n, pair) in t.windows(2).enumerate() {
+            let error = pair[1] - pair[0] - steps[n + 1];
+            assert!(error.abs() <= 1e-15 * scene.t_end.max(1.0), "{name}: {n}");
+        }
+        assert_eq!(t.last(), Some(&scene.t_end), "{name}");
+    }
+}
