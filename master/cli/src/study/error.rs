@@ -26,15 +26,21 @@ pub enum StudyError {
         /// Which case, for the message.
         case: String,
     },
-    /// The run that all others are compared with diverged.
+    /// There is no monolithic scene to compare with.
     #[error(
-        "{case}: the run with the smallest macro step, {macro_step:e} s, is the reference, but it diverged: {reason}"
+        "{case}: no monolithic scene is known for this system: the scene file has no [monolithic], or a parameter, a joint, a \
+         connection or the start was changed since, and the monolithic scene does not follow. Compare with the finest \
+         run: --reference finest"
     )]
-    ReferenceDiverged {
+    NoMonolithic {
         /// Which case, for the message.
         case: String,
-        /// Macro step in s.
-        macro_step: f64,
+    },
+    /// The monolithic scene has no solution to compare with.
+    #[error("{case}: the monolithic scene is the reference, but its run diverged: {reason}")]
+    MonolithicDiverged {
+        /// Which case, for the message.
+        case: String,
         /// How.
         reason: String,
     },

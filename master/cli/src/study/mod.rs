@@ -1,12 +1,18 @@
-//! Studies: many runs of one scene with other settings, in parallel and in this process.
+//! Studies: many runs of one scene with other settings, in this process.
 //!
 //! * [`converge`]: errors, observed orders and cost over the macro step;
 //! * [`stability`]: stable or not over two settings;
 //! * [`progress`]: the bar that shows how far a study is.
+//!
+//! What they share: the columns that are judged, what these are compared with, and the errors.
 
+mod columns;
 pub mod converge;
 mod error;
+mod errors;
+mod orders;
 pub mod progress;
+mod reference;
 mod runs;
 pub mod stability;
 
