@@ -144,6 +144,7 @@ impl<'a, 'b> Probe<'a, 'b> {
         let mut scene = scene.clone();
         let columns = coordinates.iter().map(|state| state.column.clone());
         scene.output.variables = Some(columns.collect());
+        scene.output.panels.clear();
         scene.coupling.increment = Increment::Automatic;
         scene.t_start = 0.0;
         for age in 0..memory {

@@ -104,10 +104,13 @@ impl Reference {
             Self::Run {
                 trajectory,
                 at_points_only,
-            } => match at_points_only[column] {
-                true => trajectory.at_point(column, t),
-                false => trajectory.value(column, t),
-            },
+            } => {
+                let value = match at_points_only[column] {
+                    true => trajectory.at_point(column, t),
+                    false => trajectory.value(column, t),
+                };
+                value.filter(|value| value.is_finite())
+            }
         }
     }
 }
