@@ -83,6 +83,12 @@ pub struct Settings {
 }
 
 impl StudyFile {
+    /// The settings that are meant for a scene, by its place.
+    pub fn settings_of(&self, scene: usize) -> impl Iterator<Item = &StudySetting> {
+        let settings = self.settings.iter();
+        settings.filter(move |setting| setting.scenes.contains(&scene))
+    }
+
     /// The settings that are meant for all scenes of the study.
     pub fn general_settings(&self) -> Vec<StudySetting> {
         let is_general = |setting: &&StudySetting| setting.scenes.len() == self.scenes.len();

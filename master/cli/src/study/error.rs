@@ -9,6 +9,9 @@ pub enum StudyError {
     /// A setting that the study brings in does not fit the scene.
     #[error(transparent)]
     Scene(#[from] SceneErrors),
+    /// A result cannot be written as JSON.
+    #[error("the results cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
     /// A run failed in another way than by diverging.
     #[error("{case}: {source}")]
     Run {
@@ -25,6 +28,19 @@ pub enum StudyError {
     NoClosedForm {
         /// Which case, for the message.
         case: String,
+    },
+    /// The run that all others are compared with diverged.
+    #[error(
+        "{case}: without closed form and [monolithic] the scene as its file has it, with H = {macro_step:e} s, is the \
+         reference, but it diverged: {reason}"
+    )]
+    ReferenceDiverged {
+        /// Which case, for the message.
+        case: String,
+        /// Macro step in s.
+        macro_step: f64,
+        /// How.
+        reason: String,
     },
     /// There is no monolithic scene to compare with.
     #[error(

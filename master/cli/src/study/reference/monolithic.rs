@@ -1,10 +1,8 @@
 //! The same system in one subsystem, without coupling.
 
-use linchpin_master::results::Statistics;
 use linchpin_master::scene::{self, Override, Scene};
 
 use super::{Reference, TrajectoryRecorder};
-use crate::simulate::Recorder;
 use crate::study::StudyError;
 use crate::study::columns::{Column, terms};
 use crate::study::runs::{Variant, number, simulated, with_macro_step};
@@ -71,7 +69,8 @@ impl Monolithic {
     /// The run fails.
     pub fn reference(&self, variant: &Variant) -> Result<Reference, StudyError> {
         let mut recorder = TrajectoryRecorder::new(self.names.clone());
-        let outcome = self.run(variant, &self.scene, &mut recorder)?;
+        let outcome =
+            simulated(&self.scene, &mut recorder).map_err(|error| variant.failed(error))?;
         outcome.map_err(|reason| StudyError::MonolithicDiverged {
             case: variant.in_words(),
             reason,
@@ -82,31 +81,22 @@ impl Monolithic {
         })
     }
 
-    /// A run with another tolerance of its solver, compared by `recorder`, which is told what the columns are called here.
+    /// The scene with another tolerance of its solver.
     ///
     /// # Errors
-    /// The run fails in another way than by diverging, which the inner result tells.
-    pub fn run_with_tolerance(
-        &self,
-        variant: &Variant,
-        tolerance: f64,
-        recorder: &mut impl Recorder<Error = std::convert::Infallible>,
-    ) -> Result<Result<Statistics, String>, StudyError> {
+    /// The scene cannot have it.
+    pub fn with_tolerance(&self, tolerance: f64) -> Result<Scene, StudyError> {
         let solver = Override {
             key: "subsystem.*.solver".to_owned(),
             value: format!("{{ kind = \"radau5\", rtol = {tolerance:?}, atol = {tolerance:?} }}"),
         };
         let mut scene = self.scene.with(&[solver])?;
         scene.output = self.scene.output.clone();
-        self.run(variant, &scene, recorder)
+        Ok(scene)
     }
 
-    fn run(
-        &self,
-        variant: &Variant,
-        scene: &Scene,
-        recorder: &mut impl Recorder<Error = std::convert::Infallible>,
-    ) -> Result<Result<Statistics, String>, StudyError> {
-        simulated(scene, recorder).map_err(|error| variant.failed(error))
+    /// What it calls the judged columns of the coupled scene.
+    pub fn names(&self) -> Vec<Option<&str>> {
+        self.names.iter().map(Option::as_deref).collect()
     }
 }

@@ -18,6 +18,7 @@ use blow_up::BlowUp;
 pub use cell::{Agreement, Cell, Simulated};
 use deviation::Deviation;
 pub use picture::draw_map;
+pub(super) use picture::plot_of;
 pub use table::{Count, summary, write_csv};
 
 /// The map of one case.
@@ -50,6 +51,23 @@ impl Grid {
         Self {
             x: sorted(&settings.x),
             y: sorted(&settings.y),
+        }
+    }
+
+    /// The grid with at most `most` values of either axis, the first and the last one among them.
+    pub(super) fn thinned(&self, most: usize) -> Self {
+        let thinned = |axis: &Axis| {
+            let last = axis.values.len() - 1;
+            let kept = most.min(axis.values.len());
+            let place = |number: usize| number * last / kept.saturating_sub(1).max(1);
+            Axis {
+                values: (0..kept).map(|number| axis.values[place(number)]).collect(),
+                ..axis.clone()
+            }
+        };
+        Self {
+            x: thinned(&self.x),
+            y: thinned(&self.y),
         }
     }
 
@@ -104,7 +122,19 @@ pub fn map(
     grid: &Grid,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Vec<CaseMap>, StudyError> {
-    let studies = Variant::all(scene)?
+    map_variants(Variant::all(scene)?, grid, tick)
+}
+
+/// The same for variants of a scene.
+///
+/// # Errors
+/// [`StudyError`], as for [`map`].
+pub(super) fn map_variants(
+    variants: Vec<Variant>,
+    grid: &Grid,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Vec<CaseMap>, StudyError> {
+    let studies = variants
         .into_iter()
         .map(|variant| Study::new(variant, grid))
         .collect::<Result<Vec<_>, _>>()?;
