@@ -9,7 +9,7 @@ use super::CommandError;
 use super::common::{OutputArguments, print};
 use crate::study::StudyError;
 use crate::study::progress;
-use crate::study::report::{Depth, Plan, json, page, report, write_csv};
+use crate::study::report::{Depth, Picture, Plan, json, page, report, write_csv};
 
 /// Compare coupling methods on scenes: errors against cost, residuals, energy, stability, on one page
 #[derive(Debug, clap::Args)]
@@ -20,7 +20,8 @@ use crate::study::report::{Depth, Plan, json, page, report, write_csv};
 
 A study lists scenes, settings and macro steps; a scene alone gets the settings that the shipped study has for every scene.
 Runs one after the other, in this process, since their time is measured. Writes DIR/report.html, which needs no network and
-nothing beside it, DIR/report.csv (a row for every run) and DIR/report.json. A run that diverges is a row that says so.")]
+nothing beside it, DIR/report.csv (a row for every run), DIR/report.json, and every picture of the page as DIR/SCENE-NAME.svg
+and .png. A run that diverges is a row that says so.")]
 pub struct Arguments {
     /// One study file, or scene files
     #[arg(
@@ -70,6 +71,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let json = json(&found).map_err(StudyError::Json)?;
     write(&folder.join("report.json"), &json)?;
     write(&folder.join("report.html"), &page(&found)?)?;
+    for scene in &found.scenes {
+        for picture in Picture::all(scene) {
+            picture.draw(&folder.join(format!("{}-{}", scene.name, picture.ending)))?;
+        }
+    }
     if !arguments.output.quiet {
         let path = folder.join("report.html");
         print(format_args!("report in {}\n", path.display()))?;

@@ -81,16 +81,17 @@ impl Monolithic {
         })
     }
 
-    /// The scene with another tolerance of its solver.
+    /// The scene with another tolerance of its solver and macro points so far apart, which leave the solver its own steps.
     ///
     /// # Errors
     /// The scene cannot have it.
-    pub fn with_tolerance(&self, tolerance: f64) -> Result<Scene, StudyError> {
+    pub fn with_tolerance(&self, tolerance: f64, macro_step: f64) -> Result<Scene, StudyError> {
         let solver = Override {
             key: "subsystem.*.solver".to_owned(),
             value: format!("{{ kind = \"radau5\", rtol = {tolerance:?}, atol = {tolerance:?} }}"),
         };
-        let mut scene = self.scene.with(&[solver])?;
+        let step = number("coupling.macro_step", macro_step);
+        let mut scene = self.scene.with(&[solver, step])?;
         scene.output = self.scene.output.clone();
         Ok(scene)
     }

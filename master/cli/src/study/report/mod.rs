@@ -21,6 +21,7 @@ use super::orders;
 use super::stability::{CaseMap, Grid};
 pub use envelope::{Bound, Cheapest, Cost, cheapest, cost_of, ratio};
 pub use page::text as page;
+pub use pictures::Picture;
 pub use plan::{Depth, Plan};
 pub use runs::{Ending, TimedRun, ToleranceRun};
 pub use summary::{EnvelopeRow, Ratio, envelope};

@@ -3,8 +3,9 @@
 use std::fmt::{self, Display};
 
 use super::envelope::{Bound, Cheapest};
+use super::pictures::{MONOLITHIC, Picture};
 use super::summary::{EnvelopeRow, Ratio, envelope};
-use super::{Depth, Ending, Report, SceneReport, SettingReport, TimedRun, pictures};
+use super::{Depth, Ending, Report, SceneReport, SettingReport, TimedRun};
 use crate::html::Escaped;
 use crate::plot::PlotError;
 use crate::study::orders;
@@ -29,24 +30,22 @@ struct Page<'a> {
     scenes: Vec<Section<'a>>,
 }
 
-/// A scene with its pictures.
+/// A scene with its pictures: the text of each SVG and what it shows.
 struct Section<'a> {
     scene: &'a SceneReport,
-    work_precision: Option<String>,
-    over_time: Option<String>,
-    maps: Vec<String>,
+    pictures: Vec<(String, String)>,
 }
 
 impl<'a> Section<'a> {
     fn new(scene: &'a SceneReport) -> Result<Self, PlotError> {
-        let maps = pictures::maps(scene).into_iter();
+        let pictures = Picture::all(scene).into_iter();
+        let drawn = pictures.map(|picture| {
+            let svg = inline(picture.svg(&scene.name)?);
+            Ok((svg, picture.caption))
+        });
         Ok(Self {
             scene,
-            work_precision: pictures::work_precision(scene).transpose()?.map(inline),
-            over_time: pictures::over_time(scene).transpose()?.map(inline),
-            maps: maps
-                .map(|map| map.map(inline))
-                .collect::<Result<_, PlotError>>()?,
+            pictures: drawn.collect::<Result<_, PlotError>>()?,
         })
     }
 }
@@ -119,21 +118,12 @@ impl Section<'_> {
             scene.quantity.name(),
             Escaped(&scene.reference)
         )?;
-        figure(
-            f,
-            self.work_precision.as_deref(),
-            "Error against cost and macro step.",
-        )?;
         self.write_envelope(f, targets)?;
-        let step = scene.trace_step;
-        let caption =
-            format!("Largest residual of all joints, and energy, over time; H = {step:e} s.");
-        figure(f, self.over_time.as_deref(), &caption)?;
-        for map in &self.maps {
-            figure(
+        for (svg, caption) in &self.pictures {
+            let caption = Escaped(caption);
+            writeln!(
                 f,
-                Some(map),
-                "Stability: circles are stable, crosses are not.",
+                "<figure>\n{svg}<figcaption>{caption}</figcaption>\n</figure>"
             )?;
         }
         self.write_table(f)?;
@@ -162,7 +152,7 @@ impl Section<'_> {
         }
         for run in &self.scene.monolithic {
             let label = format!("{:.0e} (tolerance)", run.tolerance);
-            self.write_run(f, (pictures::MONOLITHIC, &label), &run.ending, None)?;
+            self.write_run(f, (MONOLITHIC, &label), &run.ending, None)?;
         }
         f.write_str("</tbody></table>\n")
     }
@@ -212,15 +202,6 @@ impl Section<'_> {
             Escaped(&verdict)
         )
     }
-}
-
-fn figure(f: &mut fmt::Formatter<'_>, svg: Option<&str>, caption: &str) -> fmt::Result {
-    let Some(svg) = svg else { return Ok(()) };
-    let caption = Escaped(caption);
-    writeln!(
-        f,
-        "<figure>\n{svg}<figcaption>{caption}</figcaption>\n</figure>"
-    )
 }
 
 fn write_envelope_row(f: &mut fmt::Formatter<'_>, row: &EnvelopeRow) -> fmt::Result {

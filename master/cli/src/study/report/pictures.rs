@@ -1,12 +1,15 @@
-//! The pictures of one scene of a report, as texts of SVGs.
+//! The pictures of one scene of a report.
+
+use std::path::Path;
 
 use linchpin_master::results::Statistics;
 
 use super::trace::Trace;
 use super::{Ending, SceneReport, SettingReport, TimedRun};
 use crate::plot::{
-    ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, Scale, TimePanel, TimePanels,
-    TimeSeries, convergence_svg, map_svg, time_panels_svg,
+    ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, Scale, StabilityMap, TimePanel,
+    TimePanels, TimeSeries, convergence, convergence_svg, map, map_svg, time_panels,
+    time_panels_svg,
 };
 use crate::study::orders;
 use crate::study::stability::plot_of;
@@ -17,15 +20,73 @@ pub const MONOLITHIC: &str = "monolithic";
 /// Most panels of one picture of maps.
 const MOST_MAPS: usize = 12;
 
+/// A picture of a scene.
+pub struct Picture {
+    /// Ending of its file's name.
+    pub ending: String,
+    /// What it shows.
+    pub caption: String,
+    plot: Plot,
+}
+
+enum Plot {
+    Curves(ConvergencePlot),
+    OverTime(TimePanels),
+    Map(StabilityMap),
+}
+
+impl Picture {
+    /// All pictures of a scene that have something to show.
+    pub fn all(scene: &SceneReport) -> Vec<Self> {
+        let cost = work_precision(scene).map(|plot| Self {
+            ending: "cost".to_owned(),
+            caption: "Error against cost and macro step.".to_owned(),
+            plot: Plot::Curves(plot),
+        });
+        let step = scene.trace_step;
+        let time = over_time(scene).map(|plot| Self {
+            ending: "time".to_owned(),
+            caption: format!(
+                "Largest residual of all joints, and energy, over time; H = {step:e} s."
+            ),
+            plot: Plot::OverTime(plot),
+        });
+        let maps = maps(scene).into_iter().enumerate();
+        let maps = maps.map(|(number, plot)| Self {
+            ending: format!("stability-{}", number + 1),
+            caption: "Stability: circles are stable, crosses are not.".to_owned(),
+            plot: Plot::Map(plot),
+        });
+        cost.into_iter().chain(time).chain(maps).collect()
+    }
+
+    /// As the text of an SVG.
+    pub fn svg(&self, name: &str) -> Result<String, PlotError> {
+        match &self.plot {
+            Plot::Curves(plot) => convergence_svg(plot, name),
+            Plot::OverTime(plot) => time_panels_svg(plot, name),
+            Plot::Map(plot) => map_svg(plot, name),
+        }
+    }
+
+    /// To `STEM.svg` and `STEM.png`.
+    pub fn draw(&self, stem: &Path) -> Result<(), PlotError> {
+        match &self.plot {
+            Plot::Curves(plot) => convergence(plot, stem),
+            Plot::OverTime(plot) => time_panels(plot, stem),
+            Plot::Map(plot) => map(plot, stem),
+        }
+    }
+}
+
 /// Errors over time, integrations, exchanges and macro step; `None` if no run has an error.
-pub fn work_precision(scene: &SceneReport) -> Option<Result<String, PlotError>> {
+fn work_precision(scene: &SceneReport) -> Option<ConvergencePlot> {
     let count = |count: fn(&Statistics) -> u64| {
         move |run: &TimedRun| Some(count(run.ending.statistics()?) as f64)
     };
-    let wall_time = |run: &TimedRun| run.ending.wall_time();
-    let mut over_time = panel(scene, "wall time in s", &wall_time);
+    let mut over_time = panel(scene, "wall time in s", &|run| run.ending.wall_time());
     over_time.curves.extend(monolithic(scene));
-    let integrations = "integrations over a macro step, all subsystems together";
+    let integrations = "integrations over a macro step, all subsystems";
     let mut over_step = panel(scene, "H in s", &|run| Some(run.macro_step));
     over_step.reference_slopes = slopes(scene);
     let panels = vec![
@@ -38,10 +99,8 @@ pub fn work_precision(scene: &SceneReport) -> Option<Result<String, PlotError>> 
         let mut points = panel.curves.iter().flat_map(|curve| &curve.points);
         points.any(|(x, y)| x.is_finite() && *y > 0.0)
     };
-    if !panels.iter().all(has_points) {
-        return None;
-    }
-    Some(convergence_svg(&ConvergencePlot { panels }, &scene.name))
+    let can_be_drawn = panels.iter().all(has_points);
+    can_be_drawn.then_some(ConvergencePlot { panels })
 }
 
 fn panel(
@@ -92,7 +151,7 @@ fn slopes(scene: &SceneReport) -> Vec<f64> {
 }
 
 /// Residuals, and energy if the scene tells it, over time; `None` if there is neither.
-pub fn over_time(scene: &SceneReport) -> Option<Result<String, PlotError>> {
+fn over_time(scene: &SceneReport) -> Option<TimePanels> {
     let panels = [
         time_panel(scene, "residual (position level) in m, rad", |trace| {
             trace.residual.items()
@@ -102,15 +161,11 @@ pub fn over_time(scene: &SceneReport) -> Option<Result<String, PlotError>> {
         }),
     ];
     let panels: Vec<TimePanel> = panels.into_iter().flatten().collect();
-    if panels.is_empty() {
-        return None;
-    }
-    let plot = TimePanels {
+    (!panels.is_empty()).then(|| TimePanels {
         title: None,
         time_label: "t in s".to_owned(),
         panels,
-    };
-    Some(time_panels_svg(&plot, &scene.name))
+    })
 }
 
 fn time_panel(
@@ -134,11 +189,10 @@ fn time_panel(
 }
 
 /// The stability maps, as many pictures as they need.
-pub fn maps(scene: &SceneReport) -> Vec<Result<String, PlotError>> {
+fn maps(scene: &SceneReport) -> Vec<StabilityMap> {
     let Some((grid, maps)) = &scene.maps else {
         return Vec::new();
     };
     let pictures = maps.chunks(MOST_MAPS);
-    let picture = |maps| map_svg(&plot_of(maps, grid), &scene.name);
-    pictures.map(picture).collect()
+    pictures.map(|maps| plot_of(maps, grid)).collect()
 }

@@ -127,7 +127,7 @@ impl Compared<'_> {
         Ok(TimedRun { macro_step, ending })
     }
 
-    /// Runs the monolithic scene with a tolerance.
+    /// Runs the monolithic scene with a tolerance; its macro points are those of `macro_step`.
     ///
     /// # Errors
     /// The solver cannot have this tolerance.
@@ -135,8 +135,9 @@ impl Compared<'_> {
         &self,
         monolithic: &Monolithic,
         tolerance: f64,
+        macro_step: f64,
     ) -> Result<ToleranceRun, StudyError> {
-        let scene = monolithic.with_tolerance(tolerance)?;
+        let scene = monolithic.with_tolerance(tolerance, macro_step)?;
         let names = monolithic.names();
         let recorder =
             || ErrorRecorder::of_names(self.reference, self.columns, names.clone(), false);

@@ -49,7 +49,7 @@ pub fn run(
         quantity: quantity_of(planned.measure),
         reference: words,
         trace_step: planned.trace_step,
-        monolithic: run_monolithic(&variant, &compared, tick)?,
+        monolithic: run_monolithic(&variant, planned.macro_steps[0], &compared, tick)?,
         settings,
         maps,
     })
@@ -128,6 +128,7 @@ fn trace(scene: &Scene, macro_step: f64, compared: &Compared<'_>) -> Result<Trac
 
 fn run_monolithic(
     variant: &Variant,
+    macro_step: f64,
     compared: &Compared<'_>,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Vec<ToleranceRun>, StudyError> {
@@ -135,7 +136,7 @@ fn run_monolithic(
         return Ok(Vec::new());
     };
     let run_one = |tolerance: f64| {
-        let run = compared.run_monolithic(&monolithic, tolerance);
+        let run = compared.run_monolithic(&monolithic, tolerance, macro_step);
         tick();
         run
     };
