@@ -92,7 +92,7 @@ impl Display for Page<'_> {
 impl Page<'_> {
     fn note(&self) -> String {
         let how = match self.report.depth {
-            Depth::Full => "short runs three times, of which the fastest counts",
+            Depth::Full => "short runs five times, of which the fastest counts",
             Depth::Quick => "a quick look: the largest macro steps only, once each",
         };
         format!(

@@ -86,7 +86,7 @@ fn work_precision(scene: &SceneReport) -> Option<ConvergencePlot> {
     };
     let mut over_time = panel(scene, "wall time in s", &|run| run.ending.wall_time());
     over_time.curves.extend(monolithic(scene));
-    let integrations = "integrations over a macro step, all subsystems";
+    let integrations = "subsystem integrations";
     let mut over_step = panel(scene, "H in s", &|run| Some(run.macro_step));
     over_step.reference_slopes = slopes(scene);
     let panels = vec![

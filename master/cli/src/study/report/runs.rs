@@ -48,8 +48,8 @@ pub enum Ending {
 const USELESS: f64 = 1.0;
 
 /// Runs are repeated so many times, unless they have taken this long in s.
-const REPETITIONS: usize = 3;
-const LONG: f64 = 0.5;
+const REPETITIONS: usize = 5;
+const LONG: f64 = 0.3;
 
 impl TimedRun {
     /// The error of a quantity, if the run came to its end and the reference knows the quantity.
