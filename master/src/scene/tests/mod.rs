@@ -9,6 +9,7 @@ mod properties;
 mod reference_mistakes;
 mod settings;
 mod stability;
+mod study_mistakes;
 
 use super::{Scene, SceneError, SceneErrors, parse};
 
