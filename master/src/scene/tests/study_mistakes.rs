@@ -148,8 +148,9 @@ fn mistakes_in_a_study_have_place_value_and_help() {
 
 fn monolithic(section: &str) -> String {
     let text = edited(&[]);
-    let (head, _) = text.split_once("[monolithic]").unwrap();
-    format!("{head}[monolithic]\n{section}\n")
+    let (head, rest) = text.split_once("[monolithic]").unwrap();
+    let (_, tail) = rest.split_once("[output]").unwrap();
+    format!("{head}[monolithic]\n{section}\n[output]{tail}")
 }
 
 #[test]
