@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use linchpin::study::converge::{Outcome, Quantity, converge};
+use linchpin::study::converge::{Quantity, converge};
 use linchpin::study::stability::{Grid, map};
 use linchpin_master::scene::{self, Override, Scene};
 

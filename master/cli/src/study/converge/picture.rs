@@ -7,6 +7,9 @@ use linchpin_master::results::Statistics;
 use super::{CaseRuns, ConvergeRun, Outcome, Quantity, neighbouring};
 use crate::plot::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, convergence};
 
+/// What is counted of a run.
+type Count = fn(&Statistics) -> u64;
+
 /// Slopes beyond these are due to rounding or divergence and get no line.
 const SLOPES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
 
@@ -47,7 +50,7 @@ pub fn draw_work_precision(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotEr
         (Quantity::State, "error of the state norm over cost"),
         (Quantity::Multiplier, "error of the multiplier over cost"),
     ];
-    let costs: [(fn(&Statistics) -> u64, &str); 2] = [
+    let costs: [(Count, &str); 2] = [
         (|own| own.integrations, "integrations over a macro step"),
         (|own| own.exchanges, "exchanges with workers"),
     ];
@@ -93,7 +96,7 @@ fn has_points(panel: &ConvergencePanel) -> bool {
 }
 
 impl ConvergeRun {
-    fn cost(&self, count: fn(&Statistics) -> u64) -> Option<f64> {
+    fn cost(&self, count: Count) -> Option<f64> {
         match &self.outcome {
             Outcome::Done { statistics, .. } => Some(count(statistics) as f64),
             Outcome::Diverged(_) => None,
