@@ -2,6 +2,8 @@
 
 use std::fmt::{self, Display};
 
+use linchpin_master::results::Statistics;
+
 use super::envelope::{Bound, Cheapest};
 use super::pictures::{MONOLITHIC, Picture};
 use super::summary::{EnvelopeRow, Ratio, envelope};
@@ -145,7 +147,7 @@ impl Section<'_> {
     fn write_table(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(
             "<table>\n<caption>All runs</caption>\n<thead><tr><th>setting</th><th>H in s</th><th>error</th><th>order</th>\
-             <th>integrations</th><th>exchanges</th><th>wall time in s</th><th>stable</th></tr></thead>\n<tbody>\n",
+             <th>integrations</th><th>predictor / columns / passes / corrector</th><th>exchanges</th><th>wall time in s</th><th>stable</th></tr></thead>\n<tbody>\n",
         )?;
         for setting in &self.scene.settings {
             self.write_setting(f, setting)?;
@@ -192,16 +194,27 @@ impl Section<'_> {
         };
         writeln!(
             f,
-            "<tr{class}><td>{}</td><td>{step}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
+            "<tr{class}><td>{}</td><td>{step}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>",
             Escaped(setting),
             error.unwrap_or_default(),
             order.unwrap_or_default(),
             count(statistics.map(|own| own.integrations)),
+            by_cause(statistics),
             count(statistics.map(|own| own.exchanges)),
             time.unwrap_or_default(),
             Escaped(&verdict)
         )
     }
+}
+
+/// Integrations by cause.
+fn by_cause(statistics: Option<&Statistics>) -> String {
+    let causes = statistics.map(|own| own.integrations_by_cause);
+    let shown = causes.map(|own| {
+        let counts = [own.predictor, own.columns, own.passes, own.corrector];
+        counts.map(|count| count.to_string()).join(" / ")
+    });
+    shown.unwrap_or_default()
 }
 
 fn write_envelope_row(f: &mut fmt::Formatter<'_>, row: &EnvelopeRow) -> fmt::Result {

@@ -31,6 +31,10 @@ struct Row<'a> {
     nrms_state: Option<f64>,
     nrms_multiplier: Option<f64>,
     integrations: Option<u64>,
+    predictor: Option<u64>,
+    columns: Option<u64>,
+    passes: Option<u64>,
+    corrector: Option<u64>,
     exchanges: Option<u64>,
     macro_steps: Option<u64>,
     solver_steps: Option<u64>,
@@ -141,6 +145,7 @@ impl SceneReport {
 
     fn row<'a>(&'a self, setting: &'a str, ending: &Ending) -> Row<'a> {
         let statistics = ending.statistics();
+        let causes = statistics.map(|own| own.integrations_by_cause);
         let reason = ending.instability(self.quantity);
         Row {
             scene: &self.name,
@@ -160,6 +165,10 @@ impl SceneReport {
             nrms_state: ending.error(Quantity::State),
             nrms_multiplier: ending.error(Quantity::Multiplier),
             integrations: statistics.map(|own| own.integrations),
+            predictor: causes.map(|own| own.predictor),
+            columns: causes.map(|own| own.columns),
+            passes: causes.map(|own| own.passes),
+            corrector: causes.map(|own| own.corrector),
             exchanges: statistics.map(|own| own.exchanges),
             macro_steps: statistics.map(|own| own.macro_steps),
             solver_steps: statistics.map(|own| own.solver_steps),
