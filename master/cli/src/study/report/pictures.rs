@@ -4,6 +4,7 @@ use std::path::Path;
 
 use linchpin_master::results::Statistics;
 
+use super::runs::USELESS;
 use super::trace::Trace;
 use super::{Ending, SceneReport, SettingReport, TimedRun};
 use crate::plot::{
@@ -40,7 +41,9 @@ impl Picture {
     pub fn all(scene: &SceneReport) -> Vec<Self> {
         let cost = work_precision(scene).map(|plot| Self {
             ending: "cost".to_owned(),
-            caption: "Error against cost and macro step.".to_owned(),
+            caption: "Error against cost and macro step; runs that diverged or are off by the whole solution \
+                      stand in the table only."
+                .to_owned(),
             plot: Plot::Curves(plot),
         });
         let step = scene.trace_step;
@@ -108,7 +111,10 @@ fn panel(
     x_label: &str,
     x: &dyn Fn(&TimedRun) -> Option<f64>,
 ) -> ConvergencePanel {
-    let point = |run: &TimedRun| Some((x(run)?, run.error(scene.quantity)?));
+    let point = |run: &TimedRun| {
+        let error = run.error(scene.quantity)?;
+        (error < USELESS).then_some((x(run)?, error))
+    };
     let curve = |setting: &SettingReport| ConvergenceCurve {
         name: setting.name.clone(),
         // A run without an error is a gap in the line.

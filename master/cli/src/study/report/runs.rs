@@ -45,7 +45,7 @@ pub enum Ending {
 }
 
 /// A relative error of this size is that of a run which has nothing to do with the solution.
-const USELESS: f64 = 1.0;
+pub(super) const USELESS: f64 = 1.0;
 
 /// Runs are repeated so many times, unless they have taken this long in s.
 const REPETITIONS: usize = 5;

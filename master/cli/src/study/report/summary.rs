@@ -8,6 +8,9 @@ use super::{SceneReport, SettingReport};
 /// The methods of S1.
 const S1_METHODS: [&str; 2] = ["baumgarte", "weighted"];
 
+/// What these methods have here and not in S1.
+const EXTRAS: [&str; 2] = ["coupling.jacobian=", "coupling.iterations="];
+
 /// One method and one error.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct EnvelopeRow {
@@ -53,7 +56,7 @@ fn row(scene: &SceneReport, method: &str, error: f64) -> EnvelopeRow {
         cheapest(settings.map(|own| (own.name.clone(), scene.cost(own, error))))
     };
     let own = best(&|setting| setting.method == method);
-    let s1 = best(&|setting| S1_METHODS.contains(&setting.method.as_str()));
+    let s1 = best(&is_s1);
     let paper = best(&|setting| setting.is_paper);
     let to = |other: Option<Cheapest>| {
         let (value, bound) = ratio(own.as_ref()?.cost, other?.cost)?;
@@ -66,6 +69,11 @@ fn row(scene: &SceneReport, method: &str, error: f64) -> EnvelopeRow {
         to_paper: to(paper),
         cheapest: own,
     }
+}
+
+fn is_s1(setting: &SettingReport) -> bool {
+    let has_extra = |set: &String| EXTRAS.iter().any(|key| set.starts_with(key));
+    S1_METHODS.contains(&setting.method.as_str()) && !setting.set.iter().any(has_extra)
 }
 
 impl SceneReport {
