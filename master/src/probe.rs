@@ -11,7 +11,7 @@ pub mod spectrum;
 use faer::Mat;
 
 use crate::CoSimulation;
-use crate::cosimulation::{Connect, Options, describe};
+use crate::cosimulation::{Connect, Options, describe, multiplier_columns};
 use crate::results::Row;
 use crate::scene::{Increment, JointKind, Method, Order, Scene};
 
@@ -42,7 +42,7 @@ pub struct Coordinate {
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Setting {
     Parameter { subsystem: usize, name: String },
-    Multiplier { joint: usize },
+    Multiplier { row: usize },
 }
 
 /// The linear map from one macro point to the next.
@@ -128,6 +128,8 @@ struct Probe<'a, 'b> {
     scene: Scene,
     connect: &'a mut Connect<'b>,
     coordinates: Vec<Coordinate>,
+    /// Number of multipliers.
+    multipliers: usize,
     /// Macro points at which the method remembers multipliers.
     memory: usize,
 }
@@ -136,24 +138,28 @@ impl<'a, 'b> Probe<'a, 'b> {
     fn new(scene: &Scene, connect: &'a mut Connect<'b>) -> Result<Self, ProbeError> {
         check_exchanged(scene)?;
         let memory = memory_of(scene)?;
-        let mut coordinates = states_of(scene, &describe(scene, connect)?)?;
+        let models = describe(scene, connect)?;
+        let multipliers = multiplier_columns(scene, &models)?;
+        let mut coordinates = states_of(scene, &models)?;
         let mut scene = scene.clone();
         let columns = coordinates.iter().map(|state| state.column.clone());
         scene.output.variables = Some(columns.collect());
+        scene.output.panels.clear();
         scene.coupling.increment = Increment::Automatic;
         scene.t_start = 0.0;
         for age in 0..memory {
-            let joints = scene.joints.iter().enumerate();
-            coordinates.extend(joints.map(|(number, joint)| Coordinate {
-                column: format!("{}.lambda", joint.name),
+            let rows = multipliers.iter().enumerate();
+            coordinates.extend(rows.map(|(row, column)| Coordinate {
+                column: column.clone(),
                 age,
-                setting: Setting::Multiplier { joint: number },
+                setting: Setting::Multiplier { row },
             }));
         }
         Ok(Self {
             scene,
             connect,
             coordinates,
+            multipliers: multipliers.len(),
             memory,
         })
     }
@@ -205,7 +211,7 @@ impl<'a, 'b> Probe<'a, 'b> {
     fn after(&mut self, steps: usize, state: &[f64]) -> Result<Vec<f64>, ProbeError> {
         let mut scene = self.scene.clone().with_fixed_steps();
         scene.t_end = steps as f64 * scene.coupling.macro_step;
-        let mut multipliers = vec![vec![0.0; scene.joints.len()]; self.memory];
+        let mut multipliers = vec![vec![0.0; self.multipliers]; self.memory];
         for (coordinate, &value) in self.coordinates.iter().zip(state) {
             match &coordinate.setting {
                 Setting::Parameter { subsystem, name } => {
@@ -213,7 +219,7 @@ impl<'a, 'b> Probe<'a, 'b> {
                     let parameters = &mut scene.subsystems[*subsystem].parameters;
                     parameters.insert(name.clone(), v1::Value { kind });
                 }
-                Setting::Multiplier { joint } => multipliers[coordinate.age][*joint] = value,
+                Setting::Multiplier { row } => multipliers[coordinate.age][*row] = value,
             }
         }
         let options = Options {
@@ -233,14 +239,14 @@ impl<'a, 'b> Probe<'a, 'b> {
 
     /// Reads the state at a macro point; `before` is that of the point before.
     fn read(&self, row: &Row, before: &[f64]) -> Result<Vec<f64>, ProbeError> {
-        let joints = self.scene.joints.len();
+        let multipliers = self.multipliers;
         let read_one = |(place, coordinate): (usize, &Coordinate)| match coordinate.age {
             0 => row
                 .get(&coordinate.column)
                 .ok_or_else(|| ProbeError::NotRecorded {
                     column: coordinate.column.clone(),
                 }),
-            _ => Ok(before[place - joints]),
+            _ => Ok(before[place - multipliers]),
         };
         self.coordinates.iter().enumerate().map(read_one).collect()
     }

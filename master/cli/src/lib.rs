@@ -17,6 +17,7 @@ pub mod commands;
 pub mod connect;
 pub mod diagnostics;
 pub mod error_norm;
+mod html;
 pub mod interrupt;
 pub mod plot;
 pub mod results;

@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use linchpin::commands::{CommandError, check, converge, describe, run, stability, worker};
+use linchpin::commands::{CommandError, check, converge, describe, report, run, stability, worker};
 use linchpin::diagnostics;
 use tracing_subscriber::filter::Targets;
 use tracing_subscriber::prelude::*;
@@ -45,6 +45,7 @@ enum Command {
     Describe(describe::Arguments),
     Converge(converge::Arguments),
     Stability(stability::Arguments),
+    Report(report::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -73,5 +74,6 @@ fn execute(command: &Command) -> Result<(), CommandError> {
         Command::Describe(arguments) => describe::execute(arguments),
         Command::Converge(arguments) => converge::execute(arguments),
         Command::Stability(arguments) => stability::execute(arguments),
+        Command::Report(arguments) => report::execute(arguments),
     }
 }

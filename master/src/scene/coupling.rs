@@ -10,6 +10,9 @@ use super::resolved::{
 use super::step_control::{self, MacroSteps};
 use super::written::Value;
 
+/// Name of the macro step.
+pub(super) const MACRO_STEP: &str = "macro_step";
+
 /// The key whose override changes which other keys there are.
 pub(super) const METHOD_KEY: &str = "coupling.method";
 

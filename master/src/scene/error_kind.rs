@@ -28,22 +28,28 @@ impl fmt::Display for Names {
 #[non_exhaustive]
 pub enum SceneErrorKind {
     /// The file cannot be read.
-    #[error("the scene file {} cannot be read: {source}", path.display())]
+    #[error("the {document} {} cannot be read: {source}", path.display())]
     Unreadable {
+        /// What it should be.
+        document: &'static str,
         /// The path as given.
         path: PathBuf,
         /// What the system says.
         source: std::io::Error,
     },
     /// There is no such file.
-    #[error("there is no scene file {}", path.display())]
+    #[error("there is no {document} {}", path.display())]
     NotFound {
+        /// What it should be.
+        document: &'static str,
         /// The path as given.
         path: PathBuf,
     },
     /// The file is not text.
-    #[error("the scene file {} is not UTF-8 text: byte {offset} starts no character", path.display())]
+    #[error("the {document} {} is not UTF-8 text: byte {offset} starts no character", path.display())]
     NotUtf8 {
+        /// What it should be.
+        document: &'static str,
         /// The path as given.
         path: PathBuf,
         /// The first byte that is not text.

@@ -3,7 +3,7 @@
 use super::error_kind::SceneErrorKind;
 use super::names::Registry;
 use super::reader::{FINITE, Field, Problems, Section};
-use super::reference::find_subsystem;
+use super::reference::find_name;
 use super::resolve::collect;
 use super::resolved::{Geometry, Joint, JointKind, Side};
 use super::written::Value;
@@ -135,7 +135,7 @@ fn read_side(
         return None;
     }
     Some(Side {
-        subsystem: find_subsystem(name, field, subsystems, problems)?,
+        subsystem: find_name(name, field, subsystems, problems)?,
         marker: marker.map(str::to_owned),
     })
 }

@@ -12,6 +12,7 @@ mod error_kind;
 mod formula;
 mod index;
 mod joint;
+mod monolithic;
 mod names;
 pub(crate) mod nearest;
 mod output;
@@ -23,6 +24,7 @@ mod resolve;
 mod resolved;
 mod stability_rules;
 mod step_control;
+mod study;
 mod subsystem;
 mod sweeps;
 #[cfg(test)]
@@ -41,11 +43,14 @@ pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index,
-    Iterations, Jacobian, Joint, JointKind, Loads, Method, Order, Otherwise, Output, Panel,
-    Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
+    Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
+    Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
     Variant,
 };
 pub use stability_rules::{Warning, warnings};
+pub use study::{
+    Measure, Settings, StudyFile, StudyScene, StudySetting, is_study, load_study, parse_study,
+};
 pub use subsystem::is_worker_address;
 
 use written::Written;
@@ -77,6 +82,8 @@ pub struct Scene {
     pub converge: Option<ConvergeSettings>,
     /// The stability map.
     pub stability: Option<StabilitySettings>,
+    /// What runs of the scene are compared with.
+    pub monolithic: Option<Monolithic>,
     written: Arc<Written>,
 }
 
@@ -85,22 +92,34 @@ pub struct Scene {
 /// # Errors
 /// All mistakes in the file, in its cases and studies, and in the overrides.
 pub fn load(path: &Path, overrides: &[Override]) -> Result<Scene, SceneErrors> {
+    let text = text_of(path, SCENE_FILE)?;
+    parse(&text, &path.display().to_string(), overrides)
+}
+
+/// What a scene is, for messages.
+const SCENE_FILE: &str = "scene file";
+
+fn text_of(path: &Path, document: &'static str) -> Result<String, SceneErrors> {
     let bytes = std::fs::read(path).map_err(|source| {
         let path = path.to_owned();
         let kind = match source.kind() {
-            ErrorKind::NotFound => SceneErrorKind::NotFound { path },
-            _ => SceneErrorKind::Unreadable { path, source },
+            ErrorKind::NotFound => SceneErrorKind::NotFound { document, path },
+            _ => SceneErrorKind::Unreadable {
+                document,
+                path,
+                source,
+            },
         };
         SceneError::new(None, kind)
     })?;
-    let text = String::from_utf8(bytes).map_err(|error| {
+    String::from_utf8(bytes).map_err(|error| {
         let kind = SceneErrorKind::NotUtf8 {
+            document,
             path: path.to_owned(),
             offset: error.utf8_error().valid_up_to(),
         };
-        SceneError::new(None, kind)
-    })?;
-    parse(&text, &path.display().to_string(), overrides)
+        SceneErrors::from(SceneError::new(None, kind))
+    })
 }
 
 /// Like [`load`], for the text of a scene; `origin` names it in messages.
@@ -108,11 +127,7 @@ pub fn load(path: &Path, overrides: &[Override]) -> Result<Scene, SceneErrors> {
 /// # Errors
 /// All mistakes in the text, in its cases and studies, and in the overrides.
 pub fn parse(text: &str, origin: &str, overrides: &[Override]) -> Result<Scene, SceneErrors> {
-    let written = Written::parse(text, origin).map_err(|mistakes| {
-        let error =
-            |(place, reason)| SceneError::new(Some(place), SceneErrorKind::NotToml { reason });
-        SceneErrors::new(mistakes.into_iter().map(error).collect())
-    })?;
+    let written = Written::parse(text, origin, SCENE_FILE)?;
     variants::resolve_checked(written, overrides)
 }
 

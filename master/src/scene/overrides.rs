@@ -98,6 +98,39 @@ impl Written {
         errors
     }
 
+    /// Puts values of another file into the tree; returns the mistakes in their keys.
+    pub(super) fn assign_from(
+        &mut self,
+        source: &Arc<Source>,
+        assignments: &[Assignment],
+    ) -> Vec<SceneError> {
+        let place = self.sources.len();
+        self.sources.push(Arc::clone(source));
+        let moved = |assignment: &Assignment| Assignment {
+            key: assignment.key.clone(),
+            key_spot: assignment.key_spot.in_source(place),
+            node: assignment.node.in_source(place),
+        };
+        let moved: Vec<Assignment> = assignments.iter().map(moved).collect();
+        self.assign(&moved)
+    }
+
+    /// Removes what the tree says about the coupling, but for the macro step.
+    pub(super) fn set_coupling_aside(&mut self) {
+        if let Value::Table(root) = &mut self.root.value
+            && let Some(Value::Table(table)) = root.get_mut("coupling").map(|e| &mut e.node.value)
+        {
+            table.retain(|key, _| key == coupling::MACRO_STEP);
+        }
+    }
+
+    /// The file as it was read.
+    pub(super) fn without_overrides(self) -> Option<Self> {
+        let file = self.sources.first()?;
+        let origin = file.path()?.display().to_string();
+        Self::parse(file.text(), &origin, self.document).ok()
+    }
+
     fn assignment(&mut self, given: &Override) -> Result<Assignment, SceneErrors> {
         let source = self.sources.len();
         self.sources

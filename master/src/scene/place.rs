@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Where the text of a setting comes from.
@@ -41,6 +42,14 @@ impl Source {
         &self.text
     }
 
+    /// The path of the file.
+    pub(super) fn path(&self) -> Option<&Path> {
+        match &self.origin {
+            Origin::File(name) => Some(Path::new(name)),
+            Origin::Override => None,
+        }
+    }
+
     pub(super) fn over_ride(text: String) -> Self {
         Self {
             origin: Origin::Override,
@@ -58,6 +67,14 @@ pub(super) struct Spot {
 }
 
 impl Spot {
+    /// The same range in another source.
+    pub(super) fn in_source(&self, source: usize) -> Self {
+        Self {
+            source,
+            ..self.clone()
+        }
+    }
+
     pub(super) fn new(source: usize, span: Range<usize>) -> Self {
         Self {
             source,

@@ -139,6 +139,13 @@ impl<'w> Field<'w> {
             .or_else(|| self.wrong_type("a text in quotes", problems))
     }
 
+    pub(super) fn flag(&self, problems: &mut Problems<'_>) -> Option<bool> {
+        match self.node.value {
+            Value::Flag(flag) => Some(flag),
+            _ => self.wrong_type("true or false", problems),
+        }
+    }
+
     /// The text, if it is one; nothing is reported.
     pub(super) fn peek_text(&self) -> Option<&'w str> {
         match &self.node.value {
@@ -294,7 +301,7 @@ impl<'w> Section<'w> {
         if field.is_none() {
             let kind = SceneErrorKind::MissingKey {
                 key,
-                section: self.title(),
+                section: self.title(problems),
                 example,
             };
             problems.report(self.spot, kind);
@@ -320,7 +327,7 @@ impl<'w> Section<'w> {
     ) {
         let kind = SceneErrorKind::UnknownKey {
             key: key.to_owned(),
-            section: self.title(),
+            section: self.title(problems),
             allowed: Names::from(allowed),
             nearest: nearest(key, allowed.iter().copied()),
         };
@@ -329,15 +336,15 @@ impl<'w> Section<'w> {
 
     pub(super) fn report_invalid_key(&self, key: &str, entry: &Entry, problems: &mut Problems<'_>) {
         let kind = SceneErrorKind::InvalidKey {
-            section: self.title(),
+            section: self.title(problems),
             key: key.to_owned(),
         };
         problems.report(&entry.key_spot, kind);
     }
 
-    fn title(&self) -> String {
+    fn title(&self, problems: &Problems<'_>) -> String {
         if self.key.is_empty() {
-            "scene file".to_owned()
+            problems.written.document.to_owned()
         } else {
             self.key.clone()
         }

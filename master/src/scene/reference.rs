@@ -15,7 +15,7 @@ pub(super) fn read_variable(
     let text = field.text(problems)?;
     match text.split_once('.') {
         Some((name, variable)) if !variable.is_empty() => {
-            let subsystem = find_subsystem(name, field, subsystems, problems)?;
+            let subsystem = find_name(name, field, subsystems, problems)?;
             Some((subsystem, variable.to_owned()))
         }
         _ => {
@@ -30,8 +30,8 @@ pub(super) fn read_variable(
     }
 }
 
-/// The place of a subsystem that a field refers to by name.
-pub(super) fn find_subsystem(
+/// The place of what a field refers to by name.
+pub(super) fn find_name(
     name: &str,
     field: &Field<'_>,
     subsystems: &Registry<'_>,

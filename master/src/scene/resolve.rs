@@ -8,6 +8,7 @@ use super::coupling;
 use super::error::{SceneError, SceneErrors};
 use super::error_kind::SceneErrorKind;
 use super::joint;
+use super::monolithic;
 use super::names::Registry;
 use super::output;
 use super::reader::{FINITE, Field, Problems, Range, Section};
@@ -16,7 +17,7 @@ use super::subsystem;
 use super::sweeps;
 use super::written::{Value, Written};
 
-const SECTIONS: [&str; 10] = [
+const SECTIONS: [&str; 11] = [
     "scene",
     "coupling",
     "subsystem",
@@ -27,6 +28,7 @@ const SECTIONS: [&str; 10] = [
     "case",
     "converge",
     "stability",
+    "monolithic",
 ];
 const DEFAULT_DEADLINE: f64 = 30.0;
 const DEFAULT_START_TIMEOUT: f64 = 10.0;
@@ -91,6 +93,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         sweeps::read_converge(section, duration, problems)
     });
     let stability = optional(root.get("stability"), problems, sweeps::read_stability);
+    let monolithic = optional(root.get("monolithic"), problems, monolithic::read);
     let head = head?;
     Some(Scene {
         name: head.name,
@@ -105,6 +108,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         cases: cases?,
         converge: converge?,
         stability: stability?,
+        monolithic: monolithic?,
         written: Arc::clone(written),
     })
 }
@@ -158,7 +162,7 @@ fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head>
 }
 
 /// The tables of a list, each under its name.
-fn sections<'w>(
+pub(super) fn sections<'w>(
     root: &Section<'w>,
     key: &'static str,
     problems: &mut Problems<'_>,
@@ -167,6 +171,8 @@ fn sections<'w>(
         "subsystem" => "tables headed [[subsystem]]",
         "joint" => "tables headed [[joint]]",
         "connection" => "tables headed [[connection]]",
+        "scene" => "tables headed [[scene]]",
+        "setting" => "tables headed [[setting]]",
         _ => "tables headed [[case]]",
     };
     let items = root

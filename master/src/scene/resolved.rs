@@ -1,6 +1,7 @@
 //! The parts of a resolved scene: defaults filled in, references followed, units SI.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use linchpin_proto::v1;
 use serde::Serialize;
@@ -374,10 +375,23 @@ pub struct Case {
 /// What a convergence study compares with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reference {
+    /// The closed form where there is one, otherwise the monolithic scene if one is named, otherwise the finest run.
+    Automatic,
     /// The closed form of the solution, for scenes that have one.
     ClosedForm,
+    /// The run of the scene that [`Monolithic`] names.
+    Monolithic,
     /// The run with the smallest macro step.
     Finest,
+}
+
+/// The same system in one subsystem, without coupling: what coupled runs are compared with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Monolithic {
+    /// Its scene.
+    pub scene: PathBuf,
+    /// Result columns, or sums of them, and what the monolithic scene calls them; names of a sum have ` + ` between them.
+    pub columns: BTreeMap<String, String>,
 }
 
 /// A convergence study.
@@ -385,7 +399,7 @@ pub enum Reference {
 pub struct ConvergeSettings {
     /// Two or more different macro steps in s.
     pub macro_steps: Vec<f64>,
-    /// What the runs are compared with; default the finest run.
+    /// What the runs are compared with; default automatic.
     pub reference: Reference,
 }
 

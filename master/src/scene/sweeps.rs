@@ -4,10 +4,12 @@ use super::overrides::{Assignment, Override};
 use super::reader::{FINITE, Field, POSITIVE, Problems, Section};
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
 use super::step_control::read_step;
-use super::written::{Node, Value};
+use super::written::{Node, Table, Value};
 
-const REFERENCES: [(&str, Reference); 2] = [
+const REFERENCES: [(&str, Reference); 4] = [
+    ("automatic", Reference::Automatic),
     ("closed-form", Reference::ClosedForm),
+    ("monolithic", Reference::Monolithic),
     ("finest", Reference::Finest),
 ];
 /// A map has at most this many points along an axis.
@@ -39,11 +41,8 @@ pub(super) fn read_case(section: &Section<'_>, problems: &mut Problems<'_>) -> O
     })
 }
 
-/// What a case sets, with the places in the file.
-pub(super) fn case_assignments(case: &Node) -> Vec<Assignment> {
-    let Value::Table(table) = &case.value else {
-        return Vec::new();
-    };
+/// What the key `set` of a table sets, with the places in the file.
+pub(super) fn set_assignments(table: &Table) -> Vec<Assignment> {
     let Some(Value::Table(set)) = table.get("set").map(|entry| &entry.node.value) else {
         return Vec::new();
     };
@@ -67,7 +66,7 @@ pub(super) fn read_converge(
         .and_then(|field| read_macro_steps(&field, duration, problems));
     let reference = section
         .get("reference")
-        .map_or(Some(Reference::Finest), |field| {
+        .map_or(Some(Reference::Automatic), |field| {
             field.choice(&REFERENCES, problems)
         });
     Some(ConvergeSettings {
@@ -76,7 +75,7 @@ pub(super) fn read_converge(
     })
 }
 
-fn read_macro_steps(
+pub(super) fn read_macro_steps(
     field: &Field<'_>,
     duration: Option<f64>,
     problems: &mut Problems<'_>,

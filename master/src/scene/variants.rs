@@ -4,9 +4,10 @@ use super::Scene;
 use super::error::{SceneError, SceneErrors};
 use super::overrides::{Assignment, Override};
 use super::resolve::resolve;
-use super::resolved::{Axis, Case};
-use super::sweeps::{axis_assignments, case_assignments};
-use super::written::Written;
+use super::resolved::{Axis, Case, Subsystem};
+use super::study::Settings;
+use super::sweeps::{axis_assignments, set_assignments};
+use super::written::{Value, Written};
 
 impl Scene {
     /// The same file with further overrides; those that it has already stay, and later ones win.
@@ -26,10 +27,46 @@ impl Scene {
     /// # Errors
     /// Every mistake that the case brings in; none for the cases of a scene that was loaded as it is.
     pub fn with_case(&self, case: &Case) -> Result<Self, SceneErrors> {
-        match self.written.list_entry("case", &case.name) {
-            Some(entry) => self.assigned(&case_assignments(entry)),
-            None => self.with(&case.overrides),
+        match self
+            .written
+            .list_entry("case", &case.name)
+            .map(|entry| &entry.value)
+        {
+            Some(Value::Table(entry)) => self.assigned(&set_assignments(entry)),
+            _ => self.with(&case.overrides),
         }
+    }
+
+    /// The scene with settings of a study.
+    ///
+    /// # Errors
+    /// Every mistake that they bring in, with its place in the study file.
+    pub fn with_settings(&self, settings: &Settings) -> Result<Self, SceneErrors> {
+        let mut written = Written::clone(&self.written);
+        if settings.choose_method() {
+            written.set_coupling_aside();
+        }
+        let errors = written.assign_from(&settings.source, &settings.assignments);
+        resolve(written, errors)
+    }
+
+    /// Whether this is the same system as the file has without overrides: subsystems, joints, connections and start, whatever
+    /// the solvers and the coupling.
+    pub fn is_system_of_file(&self) -> bool {
+        let file = Written::clone(&self.written).without_overrides();
+        let same = |file: Self| {
+            let subsystem = |own: &Subsystem| Subsystem {
+                solver: None,
+                ..own.clone()
+            };
+            let subsystems = self.subsystems.iter().map(subsystem);
+            subsystems.eq(file.subsystems.iter().map(subsystem))
+                && self.joints == file.joints
+                && self.connections == file.connections
+                && self.t_start == file.t_start
+        };
+        let file = file.and_then(|file| resolve(file, Vec::new()).ok());
+        file.is_some_and(same)
     }
 
     fn assigned(&self, assignments: &[Assignment]) -> Result<Self, SceneErrors> {

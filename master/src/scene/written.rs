@@ -2,11 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::path::Path;
 use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeInteger, DeString, DeTable, DeValue};
 
+use super::error::{SceneError, SceneErrors};
+use super::error_kind::SceneErrorKind;
 use super::place::{Place, Source, Spot};
 
 /// The entries of a table by key.
@@ -98,6 +101,30 @@ impl Node {
         }
     }
 
+    /// The same value with its places in another source.
+    pub(super) fn in_source(&self, source: usize) -> Self {
+        let value = match &self.value {
+            Value::List(items) => {
+                Value::List(items.iter().map(|item| item.in_source(source)).collect())
+            }
+            Value::Table(table) => {
+                let moved = |(key, entry): (&String, &Entry)| {
+                    let entry = Entry {
+                        key_spot: entry.key_spot.in_source(source),
+                        node: entry.node.in_source(source),
+                    };
+                    (key.clone(), entry)
+                };
+                Value::Table(table.iter().map(moved).collect())
+            }
+            plain => plain.clone(),
+        };
+        Self {
+            spot: self.spot.in_source(source),
+            value,
+        }
+    }
+
     /// True if this is a table whose `name` is the given one.
     pub(super) fn is_named(&self, name: &str) -> bool {
         self.name() == Some(name)
@@ -141,19 +168,38 @@ fn spot_of<T>(spanned: &Spanned<T>, source: usize, offset: usize) -> Spot {
 /// A scene as written, together with the overrides that were put into it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Written {
-    /// The file, then one source for each override.
+    /// The file, then one source for each override or study.
     pub(super) sources: Vec<Arc<Source>>,
+    /// What the file is, for messages.
+    pub(super) document: &'static str,
     pub(super) root: Node,
 }
 
 impl Written {
-    /// Parses a scene file; on failure the first mistake of every line with its place.
-    pub(super) fn parse(text: &str, origin: &str) -> Result<Self, Vec<(Place, String)>> {
+    /// Parses a file; `document` says what it is. All mistakes of its text: the first one of every line.
+    pub(super) fn parse(
+        text: &str,
+        origin: &str,
+        document: &'static str,
+    ) -> Result<Self, SceneErrors> {
+        Self::parse_toml(text, origin, document).map_err(|mistakes| {
+            let error =
+                |(place, reason)| SceneError::new(Some(place), SceneErrorKind::NotToml { reason });
+            SceneErrors::new(mistakes.into_iter().map(error).collect())
+        })
+    }
+
+    fn parse_toml(
+        text: &str,
+        origin: &str,
+        document: &'static str,
+    ) -> Result<Self, Vec<(Place, String)>> {
         let source = Arc::new(Source::file(origin, text));
         let (table, mistakes) = DeTable::parse_recoverable(text);
         if mistakes.is_empty() {
             return Ok(Self {
                 sources: vec![source],
+                document,
                 root: Node {
                     spot: Spot::new(0, 0..0),
                     value: Value::Table(table_from_toml(table.get_ref(), 0, 0)),
@@ -170,6 +216,12 @@ impl Written {
             }
         }
         Err(reported)
+    }
+
+    /// The folder of the file, from which it counts its paths.
+    pub(super) fn folder(&self) -> &Path {
+        let file = self.sources.first().and_then(|file| file.path());
+        file.and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
     /// The text of the file.

@@ -24,10 +24,10 @@ impl Dimension {
     fn model_description(self) -> &'static str {
         match self {
             Self::Plane => {
-                "Bodies in the plane with joints, springs, dampers and prescribed motions, as the tables body, marker, joint, spring, torsion-spring and motion of its parameters say; NAME is a name of your choice. Joint kinds: revolute, prismatic, weld"
+                "Bodies in the plane with joints, springs, dampers and prescribed motions, as the tables body, marker, joint, spring, torsion-spring and motion of its parameters say; NAME is a name of your choice. Joint kinds: revolute, prismatic, inline, weld"
             }
             Self::Space => {
-                "Bodies in space with joints, springs, dampers and prescribed motions, as the tables body, marker, joint, spring, torsion-spring and motion of its parameters say; NAME is a name of your choice. Joint kinds: revolute, prismatic, weld, spherical, universal"
+                "Bodies in space with joints, springs, dampers and prescribed motions, as the tables body, marker, joint, spring, torsion-spring and motion of its parameters say; NAME is a name of your choice. Joint kinds: revolute, prismatic, inline, weld, spherical, universal"
             }
         }
     }

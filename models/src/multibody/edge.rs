@@ -11,6 +11,7 @@ use nalgebra::{Quaternion, Vector3};
 
 use super::body::{Body, GROUND};
 use super::dimension::Dimension;
+use super::error::CompositionError;
 use super::joint::{Joint, JointKind};
 use super::kinematics::{BodyMotion, Orientation, Twist};
 use super::motion::{Coordinate, Course};
@@ -70,13 +71,16 @@ pub struct Moving {
 
 impl Edge {
     /// The edge of a joint; `outer_end` is the end of the joint at the outer body.
+    ///
+    /// # Errors
+    /// [`CompositionError::NoTreeJoint`] for a joint whose coordinates no edge has.
     pub fn of_joint(
         place: usize,
         joint: &Joint,
         outer_end: usize,
         bodies: &[Body],
         course: Option<Course>,
-    ) -> Self {
+    ) -> Result<Self, CompositionError> {
         let inner_end = 1 - outer_end;
         let [inner, outer] = [joint.bodies[inner_end], joint.bodies[outer_end]];
         let [inner_start, outer_start] = [&bodies[inner].start, &bodies[outer].start];
@@ -88,10 +92,14 @@ impl Edge {
             JointKind::Weld => Freedom::Turns(Vec::new()),
             JointKind::Prismatic => Freedom::Slide(own),
             JointKind::Spherical => Freedom::Ball,
+            JointKind::Inline => {
+                let field = joint.place.clone();
+                return Err(CompositionError::NoTreeJoint { field });
+            }
         };
         let sign = if outer_end == 1 { 1.0 } else { -1.0 };
         let has_coordinate = matches!(joint.kind, JointKind::Revolute | JointKind::Prismatic);
-        Self {
+        Ok(Self {
             joint: Some(place),
             inner,
             outer,
@@ -107,7 +115,7 @@ impl Edge {
             } else {
                 0.0
             },
-        }
+        })
     }
 
     /// The edge of a body that no joint holds.

@@ -137,6 +137,12 @@ pub enum CompositionError {
         /// Place.
         field: String,
     },
+    /// A joint without minimal coordinates.
+    #[error("an inline joint has no minimal coordinates; set formulation = \"absolute\"")]
+    NoTreeJoint {
+        /// Place.
+        field: String,
+    },
     /// A motion of a point with minimal coordinates.
     #[error(
         "minimal coordinates cannot prescribe the motion of a point; set formulation = \"absolute\", or prescribe that of a revolute or prismatic joint"
@@ -184,6 +190,7 @@ impl CompositionError {
             | Self::Moving { field, .. }
             | Self::Redundant { field, .. }
             | Self::Loop { field }
+            | Self::NoTreeJoint { field }
             | Self::PointMotion { field }
             | Self::DrivenTwice { field, .. }
             | Self::SameVariable { field, .. } => field,

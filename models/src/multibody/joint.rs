@@ -6,6 +6,7 @@
 //! |---|---|---|
 //! | revolute | p_a = p_b | p_a = p_b, e_a = e_b |
 //! | prismatic | p_a - p_b along e, no turn | the same |
+//! | inline | p_a - p_b along e, which b holds | the same |
 //! | weld | p_a = p_b, no turn | the same |
 //! | spherical | | p_a = p_b |
 //! | universal | | p_a = p_b, the axis of a at right angles to that of b |
@@ -31,6 +32,8 @@ pub enum JointKind {
     Revolute,
     /// A translation along an axis.
     Prismatic,
+    /// A translation along an axis of b, and all turns.
+    Inline,
     /// Nothing.
     Weld,
     /// All turns.
@@ -39,14 +42,16 @@ pub enum JointKind {
     Universal,
 }
 
-const PLANAR_KINDS: [(&str, JointKind); 3] = [
+const PLANAR_KINDS: [(&str, JointKind); 4] = [
     ("revolute", JointKind::Revolute),
     ("prismatic", JointKind::Prismatic),
+    ("inline", JointKind::Inline),
     ("weld", JointKind::Weld),
 ];
-const SPATIAL_KINDS: [(&str, JointKind); 5] = [
+const SPATIAL_KINDS: [(&str, JointKind); 6] = [
     ("revolute", JointKind::Revolute),
     ("prismatic", JointKind::Prismatic),
+    ("inline", JointKind::Inline),
     ("weld", JointKind::Weld),
     ("spherical", JointKind::Spherical),
     ("universal", JointKind::Universal),
@@ -202,14 +207,8 @@ impl Joint {
                 laws
             }
             JointKind::Weld => [self.at_point(), self.no_turn(starts)].concat(),
-            JointKind::Prismatic => {
-                let normals = match self.dimension {
-                    Dimension::Plane => vec![across],
-                    Dimension::Space => vec![across, b.cross(&across)],
-                };
-                let in_plane = normals.into_iter().map(|normal| Law::InPlane { normal });
-                in_plane.chain(self.no_turn(starts)).collect()
-            }
+            JointKind::Prismatic => [self.in_line(), self.no_turn(starts)].concat(),
+            JointKind::Inline => self.in_line(),
         };
         let conditions = laws.into_iter().map(|law| self.condition(law, Drive::None));
         conditions.collect()
@@ -242,6 +241,17 @@ impl Joint {
     fn at_point(&self) -> Vec<Law> {
         let directions = self.dimension.directions().iter();
         let laws = directions.map(|&direction| Law::AtPoint { direction });
+        laws.collect()
+    }
+
+    /// The joint's point on a stays on the axis of b.
+    fn in_line(&self) -> Vec<Law> {
+        let across = self.across[1];
+        let normals = match self.dimension {
+            Dimension::Plane => vec![across],
+            Dimension::Space => vec![across, self.axes[1].cross(&across)],
+        };
+        let laws = normals.into_iter().map(|normal| Law::InPlane { normal });
         laws.collect()
     }
 
@@ -288,7 +298,9 @@ fn perpendicular(axis: &Vector3<f64>) -> Vector3<f64> {
 
 fn axis_keys(kind: JointKind, dimension: Dimension) -> &'static [&'static str] {
     match (kind, dimension) {
-        (JointKind::Prismatic, _) | (JointKind::Revolute, Dimension::Space) => &["axis"],
+        (JointKind::Prismatic | JointKind::Inline, _) | (JointKind::Revolute, Dimension::Space) => {
+            &["axis"]
+        }
         (JointKind::Universal, _) => &["axis", "second_axis"],
         _ => &[],
     }

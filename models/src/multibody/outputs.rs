@@ -52,7 +52,9 @@ fn outputs_of(place: usize, joint: &Joint, dimension: Dimension) -> Vec<Output> 
         JointKind::Revolute | JointKind::Prismatic => {
             vec![Output::Coordinate(place), Output::Rate(place)]
         }
-        JointKind::Weld | JointKind::Spherical | JointKind::Universal => Vec::new(),
+        JointKind::Inline | JointKind::Weld | JointKind::Spherical | JointKind::Universal => {
+            Vec::new()
+        }
     };
     let reactions = 0..dimension.load_components();
     own.extend(reactions.map(|component| Output::Reaction {
@@ -102,7 +104,9 @@ fn variables_of(joint: &Joint, dimension: Dimension) -> Vec<v1::Variable> {
             ),
             own("speed", "m/s", "rate of the displacement"),
         ],
-        JointKind::Weld | JointKind::Spherical | JointKind::Universal => Vec::new(),
+        JointKind::Inline | JointKind::Weld | JointKind::Spherical | JointKind::Universal => {
+            Vec::new()
+        }
     };
     variables.extend(dimension.form().loads(name).map(|load| v1::Variable {
         description: format!(

@@ -10,7 +10,7 @@ use super::system::System;
 /// ground by an edge that leaves it free.
 ///
 /// # Errors
-/// [`CompositionError`]: a joint that closes a loop, or a prescribed motion of a point.
+/// [`CompositionError`]: a joint that closes a loop, one that no edge can express, or a prescribed motion of a point.
 pub fn edges(system: &System) -> Result<Vec<Edge>, CompositionError> {
     for motion in &system.motions {
         if let Target::Point { .. } = motion.target {
@@ -81,7 +81,7 @@ impl Growth<'_> {
             let motion = motions.find(|motion| motion.joint() == Some(place));
             let course = motion.map(|motion| motion.course);
             let bodies: &[Body] = &self.system.bodies;
-            self.push(Edge::of_joint(place, joint, outer_end, bodies, course));
+            self.push(Edge::of_joint(place, joint, outer_end, bodies, course)?);
             next.push(outer);
         }
         Ok(())

@@ -283,12 +283,21 @@ fn names_and_words_are_told_with_those_that_there_are() {
     assert_planar(
         &[("joint.pin.kind", T("hinge"))],
         "joint.pin.kind",
-        &["\"hinge\"", "revolute, prismatic, weld"],
+        &["\"hinge\"", "revolute, prismatic, inline, weld"],
     );
     assert_planar(
         &[("joint.pin.kind", T("spherical"))],
         "joint.pin.kind",
-        &["revolute, prismatic, weld"],
+        &["revolute, prismatic, inline, weld"],
+    );
+    assert_planar(
+        &[
+            ("formulation", T("minimal")),
+            ("joint.pin.kind", T("inline")),
+            ("joint.pin.axis", L(&[0.0, 1.0])),
+        ],
+        "joint.pin",
+        &["inline", "\"absolute\""],
     );
     assert_planar(
         &[("formulation", T("relative"))],

@@ -8,6 +8,7 @@ use super::picture::Picture;
 use super::scenery::Scenery;
 use super::stage::Stage;
 use super::view::View;
+use crate::html::Escaped;
 use crate::plot::{PALETTE_SIZE, palette_colour};
 
 const STYLE: &str = include_str!("../../assets/animation/style.css");
@@ -170,25 +171,6 @@ fn luminance(colour: [u8; 3]) -> f64 {
     };
     let [red, green, blue] = colour.map(linear);
     0.2126 * red + 0.7152 * green + 0.0722 * blue
-}
-
-/// A text that HTML takes as it is, in elements and in attributes.
-pub(super) struct Escaped<'a>(pub &'a str);
-
-impl Display for Escaped<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for character in self.0.chars() {
-            match character {
-                '&' => f.write_str("&amp;")?,
-                '<' => f.write_str("&lt;")?,
-                '>' => f.write_str("&gt;")?,
-                '"' => f.write_str("&quot;")?,
-                '\'' => f.write_str("&#39;")?,
-                _ => f.write_char(character)?,
-            }
-        }
-        Ok(())
-    }
 }
 
 /// JSON that cannot end the script element it stands in: `<` is only ever part of a string there.

@@ -6,10 +6,11 @@ use nalgebra::Vector3;
 
 use super::film::bodies;
 use super::motion::{Frame, Marker, Motion};
-use super::page::{Escaped, colour_class};
+use super::page::colour_class;
 use super::scenery::Scenery;
 use super::stage::Stage;
 use super::view::View;
+use crate::html::Escaped;
 
 /// Radii of the dots at markers and joints in pixels.
 const MARKER_RADIUS: f64 = 3.5;

@@ -46,10 +46,15 @@ pub struct OutputArguments {
 impl OutputArguments {
     /// Makes the folder and tries whether files can be written there, before any work is done.
     pub fn prepare(&self, scene: &Scene) -> Result<PathBuf, CommandError> {
+        self.prepare_for(&scene.name)
+    }
+
+    /// The same for results of something else than a scene.
+    pub fn prepare_for(&self, name: &str) -> Result<PathBuf, CommandError> {
         let folder = self
             .out
             .clone()
-            .unwrap_or_else(|| Path::new("out").join(&scene.name));
+            .unwrap_or_else(|| Path::new("out").join(name));
         prepare_folder(&folder)?;
         Ok(folder)
     }

@@ -25,8 +25,8 @@ pub struct Arguments {
     #[arg(long, value_name = "H,H,..")]
     macro_steps: Option<String>,
 
-    /// closed-form (scenes with an exact solution) or finest (the run with the smallest H), in place of
-    /// converge.reference of the scene
+    /// closed-form (scenes with an exact solution), monolithic (the scene that [monolithic] names), finest (the run with the
+    /// smallest H), or automatic (the first of these that there is), in place of converge.reference of the scene
     #[arg(long, value_name = "REFERENCE")]
     reference: Option<String>,
 

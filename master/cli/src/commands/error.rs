@@ -82,6 +82,15 @@ pub enum CommandError {
         /// Flags that do the same.
         flags: &'static str,
     },
+    /// A study and other files at once.
+    #[error(
+        "{} is a study, which stands alone; give one study, or one or more scenes",
+        path.display()
+    )]
+    StudyAmongOthers {
+        /// The study.
+        path: PathBuf,
+    },
     /// No worker at an address.
     #[error("no description from {address}: {source}")]
     Start {
@@ -119,7 +128,9 @@ impl CommandError {
             Self::Stopped { source, .. } if matches!(**source, RunError::Interrupted { .. }) => {
                 interrupt::EXIT_CODE
             }
-            Self::NothingToStudy { .. } | Self::NothingToAnimate => 2,
+            Self::NothingToStudy { .. }
+            | Self::NothingToAnimate
+            | Self::StudyAmongOthers { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,
         }

@@ -5,6 +5,7 @@ pub mod common;
 pub mod converge;
 pub mod describe;
 pub mod error;
+pub mod report;
 pub mod run;
 pub mod stability;
 pub mod worker;

@@ -16,8 +16,8 @@ use crate::study::stability::{Grid, draw_map, map, number_of_points, summary, wr
   linchpin stability scenes/oscillator.toml --x 'subsystem.*.parameters.c=1e1:1e8:25:log' \\
       --y 'subsystem.*.parameters.d=1e-1:1e5:25:log'
 
-Runs in parallel and in this process. A point is stable if no position or velocity grows tenfold from the first to
-the last tenth of the macro steps. Where the scene is linear, its solvers exact and its states described, the spectral radius of
+Runs in parallel and in this process. A point of a linear scene is stable if no position or velocity grows tenfold from the
+first to the last tenth of the time, one of any other scene if its velocities stay near those of a reference run. Where the scene is linear, its solvers exact and its states described, the spectral radius of
 the macro-step map is found as well. Writes DIR/stability.csv, DIR/stability.svg and .png. A scene with cases gives one
 panel for each.")]
 pub struct Arguments {

@@ -107,15 +107,20 @@ fn paint<DB: Surface>(picture: &impl Picture, backend: DB, stem: &Path) -> Resul
 }
 
 fn write_svg(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
+    let path = with_ending(stem, ".svg");
+    std::fs::write(&path, svg(picture, stem)?)
+        .map_err(|source| PlotError::WriteSvg { path, source })
+}
+
+/// The text of the SVG; `stem` names the picture in errors.
+pub(super) fn svg(picture: &impl Picture, stem: &Path) -> Result<String, PlotError> {
     let mut drawing = String::new();
     paint(
         picture,
         SVGBackend::with_string(&mut drawing, fine_size(picture)),
         stem,
     )?;
-    let path = with_ending(stem, ".svg");
-    std::fs::write(&path, in_pixels(&drawing, picture))
-        .map_err(|source| PlotError::WriteSvg { path, source })
+    Ok(in_pixels(&drawing, picture))
 }
 
 /// The drawing shown at the size of the picture, with the round line joins of the PNG and no seams between rectangles.

@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::axis::Axis;
-use super::canvas::{Drawn, Picture, Surface, embed_font, write};
+use super::canvas::{Drawn, Picture, Surface, embed_font, svg, write};
 use super::error::PlotError;
 use super::legend::{Legend, distinct};
 use super::panel::{Axes, Panel, inner_height, inner_width, room_left};
@@ -50,6 +50,19 @@ pub struct ConvergenceCurve {
 /// # Errors
 /// [`PlotError`]: too many panels, no point to draw, unwritable path.
 pub fn convergence(plot: &ConvergencePlot, stem: &Path) -> Result<(), PlotError> {
+    write(&checked_layout(plot, stem)?, stem)
+}
+
+/// The same picture as the text of an SVG, for a page; `name` is its name in errors.
+///
+/// # Errors
+/// [`PlotError`]: too many panels, no point to draw.
+pub fn convergence_svg(plot: &ConvergencePlot, name: &str) -> Result<String, PlotError> {
+    let stem = Path::new(name);
+    svg(&checked_layout(plot, stem)?, stem)
+}
+
+fn checked_layout<'a>(plot: &'a ConvergencePlot, stem: &Path) -> Result<Layout<'a>, PlotError> {
     embed_font()?;
     check_number(plot.panels.len())?;
     if plot
@@ -61,7 +74,7 @@ pub fn convergence(plot: &ConvergencePlot, stem: &Path) -> Result<(), PlotError>
             stem: stem.to_path_buf(),
         });
     }
-    write(&Layout::new(plot), stem)
+    Ok(Layout::new(plot))
 }
 
 const MARGIN: f64 = 0.05;

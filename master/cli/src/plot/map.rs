@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::RGBColor;
 
 use super::axis::Axis;
-use super::canvas::{Drawn, Picture, Surface, embed_font, write};
+use super::canvas::{Drawn, Picture, Surface, embed_font, svg, write};
 use super::colour::GrowthColours;
 use super::error::PlotError;
 use super::grid::{MapAxis, MapPanel, PlacedCell, Verdict};
@@ -29,6 +29,19 @@ pub struct StabilityMap {
 /// [`PlotError`]: grid values not increasing, number of cells does not fit the grid, too many panels, no cell to draw,
 /// unwritable path.
 pub fn map(plot: &StabilityMap, stem: &Path) -> Result<(), PlotError> {
+    write(&checked_layout(plot, stem)?, stem)
+}
+
+/// The same picture as the text of an SVG, for a page; `name` is its name in errors.
+///
+/// # Errors
+/// [`PlotError`], as for [`map`], but for the path.
+pub fn map_svg(plot: &StabilityMap, name: &str) -> Result<String, PlotError> {
+    let stem = Path::new(name);
+    svg(&checked_layout(plot, stem)?, stem)
+}
+
+fn checked_layout<'a>(plot: &'a StabilityMap, stem: &Path) -> Result<Layout<'a>, PlotError> {
     embed_font()?;
     check_number(plot.panels.len())?;
     plot.panels.iter().try_for_each(MapPanel::check)?;
@@ -38,7 +51,7 @@ pub fn map(plot: &StabilityMap, stem: &Path) -> Result<(), PlotError> {
             stem: stem.to_path_buf(),
         });
     }
-    write(&layout, stem)
+    Ok(layout)
 }
 
 /// Radius of a mark as a share of the cell, and its largest size in pixels.

@@ -25,14 +25,16 @@ mod tick;
 mod tiling;
 mod time_panels;
 
-pub use convergence::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, convergence};
+pub use convergence::{
+    ConvergenceCurve, ConvergencePanel, ConvergencePlot, convergence, convergence_svg,
+};
 pub use error::PlotError;
 pub use grid::{MapAxis, MapCell, MapPanel, Verdict};
-pub use map::{StabilityMap, map};
+pub use map::{StabilityMap, map, map_svg};
 pub use scale::Scale;
 pub(crate) use style::{PALETTE_SIZE, palette_colour};
 pub(crate) use tick::Ticks;
-pub use time_panels::{TimePanel, TimePanels, TimeSeries, time_panels};
+pub use time_panels::{TimePanel, TimePanels, TimeSeries, time_panels, time_panels_svg};
 
 #[cfg(test)]
 mod tests;

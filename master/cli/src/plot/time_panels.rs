@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
-use super::canvas::{Drawn, Picture, Surface, embed_font, write};
+use super::canvas::{Drawn, Picture, Surface, embed_font, svg, write};
 use super::error::PlotError;
 use super::legend::{Legend, distinct};
 use super::panel::{
@@ -56,13 +56,25 @@ pub struct TimeSeries {
 /// # Errors
 /// [`PlotError`]: lengths of `t` and `y` differ, times decrease, too many panels, no point to draw, unwritable path.
 pub fn time_panels(plot: &TimePanels, stem: &Path) -> Result<(), PlotError> {
+    write(&checked_layout(plot, stem)?, stem)
+}
+
+/// The same picture as the text of an SVG, for a page; `name` is its name in errors.
+///
+/// # Errors
+/// [`PlotError`], as for [`time_panels`], but for the path.
+pub fn time_panels_svg(plot: &TimePanels, name: &str) -> Result<String, PlotError> {
+    let stem = Path::new(name);
+    svg(&checked_layout(plot, stem)?, stem)
+}
+
+fn checked_layout<'a>(plot: &'a TimePanels, stem: &Path) -> Result<Layout<'a>, PlotError> {
     embed_font()?;
     check_number(plot.panels.len())?;
     all_series(plot).try_for_each(checked)?;
-    let layout = Layout::new(plot).ok_or_else(|| PlotError::NoData {
+    Layout::new(plot).ok_or_else(|| PlotError::NoData {
         stem: stem.to_path_buf(),
-    })?;
-    write(&layout, stem)
+    })
 }
 
 const TITLE_HEIGHT: f64 = 42.0;

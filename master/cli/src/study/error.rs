@@ -9,6 +9,9 @@ pub enum StudyError {
     /// A setting that the study brings in does not fit the scene.
     #[error(transparent)]
     Scene(#[from] SceneErrors),
+    /// A result cannot be written as JSON.
+    #[error("the results cannot be written as JSON: {0}")]
+    Json(#[from] serde_json::Error),
     /// A run failed in another way than by diverging.
     #[error("{case}: {source}")]
     Run {
@@ -28,13 +31,32 @@ pub enum StudyError {
     },
     /// The run that all others are compared with diverged.
     #[error(
-        "{case}: the run with the smallest macro step, {macro_step:e} s, is the reference, but it diverged: {reason}"
+        "{case}: without closed form and [monolithic] the scene as its file has it, with H = {macro_step:e} s, is the \
+         reference, but it diverged: {reason}"
     )]
     ReferenceDiverged {
         /// Which case, for the message.
         case: String,
         /// Macro step in s.
         macro_step: f64,
+        /// How.
+        reason: String,
+    },
+    /// There is no monolithic scene to compare with.
+    #[error(
+        "{case}: no monolithic scene is known for this system: the scene file has no [monolithic], or a parameter, a joint, a \
+         connection or the start was changed since, and the monolithic scene does not follow. Compare with the finest \
+         run: --reference finest"
+    )]
+    NoMonolithic {
+        /// Which case, for the message.
+        case: String,
+    },
+    /// The monolithic scene has no solution to compare with.
+    #[error("{case}: the monolithic scene is the reference, but its run diverged: {reason}")]
+    MonolithicDiverged {
+        /// Which case, for the message.
+        case: String,
         /// How.
         reason: String,
     },

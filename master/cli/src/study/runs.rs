@@ -1,15 +1,18 @@
 //! What all studies need to know about a scene and its runs.
 
-use std::collections::BTreeSet;
+use std::convert::Infallible;
 
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::{Connect, describe, multiplier_columns};
-use linchpin_master::scene::Scene;
+use linchpin_master::cosimulation::{Connect, Options, describe};
+use linchpin_master::results::Statistics;
+use linchpin_master::scene::{Override, Scene, SceneErrors};
 use linchpin_proto::contract::CallError;
 use linchpin_proto::v1::{Model, Severity};
 
 use super::StudyError;
+use super::columns::{self, Column};
 use crate::connect::{Connector, Place};
+use crate::simulate::{Recorder, SimulateError, simulate};
 
 /// A variant of the scene that is studied on its own.
 pub struct Variant {
@@ -49,8 +52,8 @@ impl Variant {
     }
 
     /// The result columns that studies judge; `models` are those of [`Variant::models`].
-    pub fn judged_columns(&self, models: &[Model]) -> Result<Vec<(String, Kind)>, StudyError> {
-        judged_columns(&self.scene, models).map_err(|source| self.failed(source))
+    pub fn judged_columns(&self, models: &[Model]) -> Result<Vec<Column>, StudyError> {
+        columns::judged(&self.scene, models).map_err(|source| self.failed(source))
     }
 
     /// The models of all subsystems.
@@ -85,41 +88,31 @@ pub fn divergence(error: RunError) -> Result<String, RunError> {
     }
 }
 
-/// What a result column holds, as far as studies judge it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    /// Position of a marker.
-    Position,
-    /// Velocity of a marker.
-    Velocity,
-    /// Multiplier of a joint.
-    Multiplier,
-}
-
-/// The result columns that studies judge: motion of all markers, multipliers of all joints.
-fn judged_columns(scene: &Scene, models: &[Model]) -> Result<Vec<(String, Kind)>, RunError> {
-    let mut columns = Vec::new();
-    for (subsystem, model) in scene.subsystems.iter().zip(models) {
-        let positions = model.markers.iter().flat_map(|marker| &marker.position);
-        let velocities = model.markers.iter().flat_map(|marker| &marker.velocity);
-        let positions = positions.map(|output| (output, Kind::Position));
-        let velocities = velocities.map(|output| (output, Kind::Velocity));
-        let mut seen = BTreeSet::new();
-        columns.extend(
-            positions
-                .chain(velocities)
-                .filter(|(output, _)| !output.is_empty() && seen.insert(*output))
-                .map(|(output, kind)| (format!("{}.{output}", subsystem.name), kind)),
-        );
+/// One run in this process; the inner result says whether it came to its end, or how it diverged.
+pub fn simulated(
+    scene: &Scene,
+    recorder: &mut impl Recorder<Error = Infallible>,
+) -> Result<Result<Statistics, String>, RunError> {
+    let connector = Connector::new(Place::InProcess);
+    match simulate(scene, &connector, &Options::default(), recorder) {
+        Ok(statistics) => Ok(Ok(statistics)),
+        Err(SimulateError::Run(error)) => divergence(error).map(Err),
+        Err(SimulateError::Record(never)) => match never {},
     }
-    let multipliers = multiplier_columns(scene, models)?;
-    columns.extend(multipliers.into_iter().map(|name| (name, Kind::Multiplier)));
-    Ok(columns)
 }
 
-/// Lets the scene record the outputs among `columns`, whatever its coupling asks for.
-pub fn record(scene: &mut Scene, columns: &[(String, Kind)]) {
-    let outputs = columns.iter().filter(|(_, kind)| *kind != Kind::Multiplier);
-    let variables = scene.output.variables.get_or_insert_default();
-    variables.extend(outputs.map(|(column, _)| column.clone()));
+/// A number for a key.
+pub fn number(key: &str, value: f64) -> Override {
+    Override {
+        key: key.to_owned(),
+        value: format!("{value:?}"),
+    }
+}
+
+/// The scene with another macro step.
+pub fn with_macro_step(scene: &Scene, macro_step: f64) -> Result<Scene, SceneErrors> {
+    let changed = scene.with(&[number("coupling.macro_step", macro_step)])?;
+    let mut changed = changed.with_fixed_steps();
+    changed.output = scene.output.clone();
+    Ok(changed)
 }

@@ -10,6 +10,7 @@ mod reference_mistakes;
 mod settings;
 mod stability;
 mod step_control;
+mod study_mistakes;
 
 use super::{Scene, SceneError, SceneErrors, parse};
 

@@ -156,7 +156,7 @@ fn studies_have_sensible_values() {
         (
             "[converge]\nmacro_steps = [1e-2, 1e-3]\nreference = 'closed'",
             "reference",
-            ["closed-form, finest", "\"closed\""],
+            ["automatic, closed-form, monolithic, finest", "\"closed\""],
         ),
         (
             "[stability]\nx = { key = 'run.deadline', values = [1, 2] }",

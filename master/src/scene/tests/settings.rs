@@ -269,7 +269,7 @@ fn a_convergence_study_compares_with_the_finest_run_by_default() {
     let steps = "[converge]\nmacro_steps = [1e-2, 3e-3, 1e-3]\n[output]";
     let converge = scene(&[("[output]", steps)]).converge.unwrap();
     assert_eq!(converge.macro_steps, [1e-2, 3e-3, 1e-3]);
-    assert_eq!(converge.reference, Reference::Finest);
+    assert_eq!(converge.reference, Reference::Automatic);
     let closed = steps.replace("1e-3]", "1e-3]\nreference = \"closed-form\"");
     let converge = scene(&[("[output]", &closed)]).converge.unwrap();
     assert_eq!(converge.reference, Reference::ClosedForm);

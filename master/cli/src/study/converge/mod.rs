@@ -1,26 +1,23 @@
 //! Convergence: the same scene over a list of macro steps.
 
-mod errors;
-mod orders;
 mod picture;
-mod reference;
 mod table;
 
-use linchpin_master::cosimulation::Options;
+use std::convert::Infallible;
+
 use linchpin_master::results::Statistics;
-use linchpin_master::scene::{self, ConvergeSettings, Override, Scene};
+use linchpin_master::scene::{self, ConvergeSettings, Scene};
 use rayon::prelude::*;
 
 use super::StudyError;
-use super::runs::{Kind, Variant, divergence, record};
-use crate::closed_form::ClosedForm;
-use crate::connect::{Connector, Place};
-use crate::simulate::{Recorder, SimulateError, simulate};
-use errors::ErrorRecorder;
-pub use errors::{Errors, Quantity};
-pub use orders::{least_squares, neighbouring};
+use super::columns::{Column, record};
+use super::errors::ErrorRecorder;
+pub use super::errors::{Errors, Quantity};
+use super::orders;
+use super::reference::{Reference, TrajectoryRecorder};
+use super::runs::{Variant, simulated, with_macro_step};
+use crate::simulate::Recorder;
 pub use picture::{draw_errors, draw_work_precision};
-use reference::{Reference, TrajectoryRecorder};
 pub use table::{summary, write_csv};
 
 /// The runs of one case, from the largest macro step to the smallest.
@@ -63,6 +60,20 @@ impl ConvergeRun {
             Outcome::Diverged(_) => None,
         }
     }
+
+    fn point(&self, quantity: Quantity) -> orders::Point {
+        Some((self.macro_step, self.error(quantity)?))
+    }
+}
+
+/// Order between each run and the one with the next larger macro step.
+pub fn neighbouring(runs: &[ConvergeRun], quantity: Quantity) -> Vec<Option<f64>> {
+    orders::neighbouring(runs.iter().map(|run| run.point(quantity)))
+}
+
+/// Slope of the straight line that fits the logarithms of errors and macro steps best; `None` with fewer than two errors.
+pub fn least_squares(runs: &[ConvergeRun], quantity: Quantity) -> Option<f64> {
+    orders::least_squares(runs.iter().map(|run| run.point(quantity)))
 }
 
 /// Number of runs of a study, for its progress.
@@ -73,8 +84,8 @@ pub fn number_of_runs(scene: &Scene, settings: &ConvergeSettings) -> usize {
 /// Runs the scene, or each of its cases, with every macro step; `tick` is called after each run.
 ///
 /// # Errors
-/// [`StudyError`]: a macro step does not fit the scene, there is no reference, a worker failed. A run that diverges is
-/// no error.
+/// [`StudyError`]: a macro step does not fit the scene, the reference that is asked for does not exist, a worker failed. A
+/// run that diverges is no error.
 pub fn converge(
     scene: &Scene,
     settings: &ConvergeSettings,
@@ -112,9 +123,10 @@ pub fn converge(
 /// One case and what its runs are compared with.
 struct Study {
     variant: Variant,
-    columns: Vec<(String, Kind)>,
-    reference: Reference,
-    /// The run that is the reference.
+    columns: Vec<Column>,
+    /// `None` if it would be the finest run, but that has diverged.
+    reference: Option<Reference>,
+    /// The finest run, if the reference should be it.
     finest: Option<ConvergeRun>,
 }
 
@@ -126,43 +138,40 @@ impl Study {
         tick: &(dyn Fn() + Sync),
     ) -> Result<Self, StudyError> {
         let columns = variant.judged_columns(&variant.models()?)?;
-        variant.scene.output.every = 1;
         record(&mut variant.scene, &columns);
-        let (reference, finest) = match reference {
-            scene::Reference::ClosedForm => {
-                let closed_form = ClosedForm::of(&variant.scene);
-                let closed_form = closed_form.ok_or_else(|| StudyError::NoClosedForm {
-                    case: variant.in_words(),
-                })?;
-                (Reference::closed_form(closed_form, &columns), None)
-            }
-            scene::Reference::Finest => {
-                let finest = macro_steps[0];
-                let mut recorder = TrajectoryRecorder::new(&columns);
-                let statistics = run(&variant, finest, &mut recorder)?;
-                tick();
-                let statistics = statistics.map_err(|reason| StudyError::ReferenceDiverged {
-                    case: variant.in_words(),
-                    macro_step: finest,
-                    reason,
-                })?;
-                let outcome = Outcome::Done {
+        let mut study = Self {
+            reference: Reference::known(&variant, &columns, reference)?,
+            finest: None,
+            columns,
+            variant,
+        };
+        if study.reference.is_none() {
+            study.run_finest(macro_steps[0])?;
+            tick();
+        }
+        Ok(study)
+    }
+
+    /// Makes the run with the smallest macro step the reference; if it diverges there is none.
+    fn run_finest(&mut self, macro_step: f64) -> Result<(), StudyError> {
+        let names = self.columns.iter().map(|column| Some(column.name.clone()));
+        let mut recorder = TrajectoryRecorder::new(names.collect());
+        let outcome = match self.simulate(macro_step, &mut recorder)? {
+            Ok(statistics) => {
+                let trajectory = recorder.into_trajectory();
+                self.reference = Some(Reference::coupled_run(trajectory, &self.columns));
+                Outcome::Done {
                     errors: Errors::default(),
                     statistics: Box::new(statistics),
-                };
-                let finest = ConvergeRun {
-                    macro_step: finest,
-                    outcome,
-                };
-                (recorder.into_reference(), Some(finest))
+                }
             }
+            Err(reason) => Outcome::Diverged(reason),
         };
-        Ok(Self {
-            variant,
-            columns,
-            reference,
-            finest,
-        })
+        self.finest = Some(ConvergeRun {
+            macro_step,
+            outcome,
+        });
+        Ok(())
     }
 
     fn run(&self, macro_step: f64, tick: &(dyn Fn() + Sync)) -> Result<ConvergeRun, StudyError> {
@@ -171,14 +180,9 @@ impl Study {
         {
             return Ok(finest.clone());
         }
-        let are_means = self.variant.scene.coupling.multipliers_are_step_means();
-        let mut recorder = ErrorRecorder::new(&self.reference, &self.columns, are_means);
-        let outcome = match run(&self.variant, macro_step, &mut recorder)? {
-            Ok(statistics) => Outcome::Done {
-                errors: recorder.errors(),
-                statistics: Box::new(statistics),
-            },
-            Err(reason) => Outcome::Diverged(reason),
+        let outcome = match &self.reference {
+            Some(reference) => self.compared(reference, macro_step)?,
+            None => self.alone(macro_step)?,
         };
         tick();
         Ok(ConvergeRun {
@@ -186,26 +190,39 @@ impl Study {
             outcome,
         })
     }
+
+    fn compared(&self, reference: &Reference, macro_step: f64) -> Result<Outcome, StudyError> {
+        let are_means = self.variant.scene.coupling.multipliers_are_step_means();
+        let mut recorder = ErrorRecorder::new(reference, &self.columns, are_means);
+        let statistics = self.simulate(macro_step, &mut recorder)?;
+        Ok(Outcome::of(statistics, recorder.errors()))
+    }
+
+    /// A run that nothing can be compared with: the finest one has diverged.
+    fn alone(&self, macro_step: f64) -> Result<Outcome, StudyError> {
+        let mut recorder = TrajectoryRecorder::new(Vec::new());
+        let statistics = self.simulate(macro_step, &mut recorder)?;
+        Ok(Outcome::of(statistics, Errors::default()))
+    }
+
+    fn simulate(
+        &self,
+        macro_step: f64,
+        recorder: &mut impl Recorder<Error = Infallible>,
+    ) -> Result<Result<Statistics, String>, StudyError> {
+        let scene = with_macro_step(&self.variant.scene, macro_step)?;
+        simulated(&scene, recorder).map_err(|error| self.variant.failed(error))
+    }
 }
 
-/// One run; the inner result says whether it came to its end.
-fn run(
-    variant: &Variant,
-    macro_step: f64,
-    recorder: &mut impl Recorder<Error = std::convert::Infallible>,
-) -> Result<Result<Statistics, String>, StudyError> {
-    let scene = variant.scene.with(&[Override {
-        key: "coupling.macro_step".to_owned(),
-        value: format!("{macro_step:?}"),
-    }])?;
-    let mut scene = scene.with_fixed_steps();
-    scene.output = variant.scene.output.clone();
-    let connector = Connector::new(Place::InProcess);
-    match simulate(&scene, &connector, &Options::default(), recorder) {
-        Ok(statistics) => Ok(Ok(statistics)),
-        Err(SimulateError::Run(error)) => divergence(error)
-            .map(Err)
-            .map_err(|error| variant.failed(error)),
-        Err(SimulateError::Record(never)) => match never {},
+impl Outcome {
+    fn of(statistics: Result<Statistics, String>, errors: Errors) -> Self {
+        match statistics {
+            Ok(statistics) => Self::Done {
+                errors,
+                statistics: Box::new(statistics),
+            },
+            Err(reason) => Self::Diverged(reason),
+        }
     }
 }

@@ -2,8 +2,13 @@
 
 use std::path::Path;
 
+use linchpin_master::results::Statistics;
+
 use super::{CaseRuns, ConvergeRun, Outcome, Quantity, neighbouring};
 use crate::plot::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, convergence};
+
+/// What is counted of a run.
+type Count = fn(&Statistics) -> u64;
 
 /// Slopes beyond these are due to rounding or divergence and get no line.
 const SLOPES: std::ops::RangeInclusive<f64> = 1.0..=5.0;
@@ -36,7 +41,7 @@ pub fn draw_errors(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotError> {
     convergence(&plot, stem)
 }
 
-/// Draws the errors over the number of integrations to `STEM.svg` and `STEM.png`.
+/// Draws the errors over the numbers of integrations and of exchanges to `STEM.svg` and `STEM.png`.
 ///
 /// # Errors
 /// [`PlotError`]: nothing to draw, unwritable path.
@@ -45,14 +50,24 @@ pub fn draw_work_precision(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotEr
         (Quantity::State, "error of the state norm over cost"),
         (Quantity::Multiplier, "error of the multiplier over cost"),
     ];
-    let panel = |(quantity, title): (Quantity, &str)| ConvergencePanel {
-        title: title.to_owned(),
-        x_label: "integrations over a macro step".to_owned(),
-        y_label: "NRMS".to_owned(),
-        curves: curves(cases, |run| Some((cost(run)?, run.error(quantity)?))),
-        reference_slopes: Vec::new(),
+    let costs: [(Count, &str); 2] = [
+        (|own| own.integrations, "integrations over a macro step"),
+        (|own| own.exchanges, "exchanges with workers"),
+    ];
+    let panel = |(quantity, title): (Quantity, &str)| {
+        costs.map(|(cost, x_label)| ConvergencePanel {
+            title: title.to_owned(),
+            x_label: x_label.to_owned(),
+            y_label: "NRMS".to_owned(),
+            curves: curves(cases, |run| Some((run.cost(cost)?, run.error(quantity)?))),
+            reference_slopes: Vec::new(),
+        })
     };
-    let panels = quantities.map(panel).into_iter().filter(has_points);
+    let panels = quantities
+        .map(panel)
+        .into_iter()
+        .flatten()
+        .filter(has_points);
     let plot = ConvergencePlot {
         panels: panels.collect(),
     };
@@ -80,10 +95,12 @@ fn has_points(panel: &ConvergencePanel) -> bool {
     points.any(|point| point.1.is_finite())
 }
 
-fn cost(run: &ConvergeRun) -> Option<f64> {
-    match &run.outcome {
-        Outcome::Done { statistics, .. } => Some(statistics.integrations as f64),
-        Outcome::Diverged(_) => None,
+impl ConvergeRun {
+    fn cost(&self, count: Count) -> Option<f64> {
+        match &self.outcome {
+            Outcome::Done { statistics, .. } => Some(count(statistics) as f64),
+            Outcome::Diverged(_) => None,
+        }
     }
 }
 

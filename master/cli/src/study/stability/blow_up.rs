@@ -6,14 +6,16 @@ use linchpin_master::{CoSimulation, RunError};
 use linchpin_proto::v1::{Model, Value, value::Kind as ValueKind};
 
 use super::Simulated;
-use crate::study::runs::{Kind, divergence, record};
+use super::cell::MOST_GROWTH;
+use crate::study::columns::{Column, Kind, record};
+use crate::study::runs::divergence;
 
 /// The initial values of each further subsystem are larger than those of the first by this share, so that the joints
 /// are open at first: the motion in which they open is excited from the start, and not only by rounding.
 const EXCITATION: f64 = 0.1;
 
-/// Share of the steps at the start and at the end that are compared.
-const PART: usize = 10;
+/// Share of the time at the start and at the end that is compared, and a little more, so that a macro point on its end counts.
+const PART: f64 = 0.1 + 1e-9;
 
 /// Growth or decay by this factor since the start is decided; going on would only leave the range of numbers.
 const DECIDED: f64 = 1e100;
@@ -23,12 +25,12 @@ const DECIDED: f64 = 1e100;
 /// Velocities as well: an unstable mode that changes its sign in every macro step moves the markers by little more than
 /// `v H`, and shows in the positions late.
 pub struct BlowUp {
-    columns: Vec<(String, Kind)>,
+    columns: Vec<Column>,
 }
 
 impl BlowUp {
-    pub fn new(mut columns: Vec<(String, Kind)>) -> Self {
-        columns.retain(|(_, kind)| *kind != Kind::Multiplier);
+    pub fn new(mut columns: Vec<Column>) -> Self {
+        columns.retain(|column| matches!(column.kind, Kind::Position | Kind::Velocity));
         Self { columns }
     }
 
@@ -46,29 +48,26 @@ impl BlowUp {
             ..Options::default()
         };
         let mut simulation = CoSimulation::start(&scene, connect, &options)?;
-        let steps = simulation.steps_planned();
-        match self.growth(&mut simulation) {
-            Ok(growth) => Ok(Simulated { growth, steps }),
-            Err(error) => divergence(error).map(|_| Simulated {
-                growth: f64::INFINITY,
-                steps,
-            }),
-        }
+        let growth = match self.growth(&scene, &mut simulation) {
+            Ok(growth) => growth,
+            Err(error) => divergence(error).map(|_| f64::INFINITY)?,
+        };
+        Ok(Simulated::new(growth, MOST_GROWTH, &scene))
     }
 
     /// The largest growth of all columns.
-    fn growth(&self, simulation: &mut CoSimulation) -> Result<f64, RunError> {
+    fn growth(&self, scene: &Scene, simulation: &mut CoSimulation) -> Result<f64, RunError> {
         let names = simulation.row().columns();
-        let columns = self.columns.iter();
-        let places = columns.filter_map(|(column, _)| names.iter().position(|name| name == column));
+        let place = |column: &Column| names.iter().position(|name| *name == column.name);
+        let places = self.columns.iter().filter_map(place);
         let mut extents: Vec<Extent> = places.map(Extent::of_column).collect();
-        let steps = simulation.steps_planned();
-        let part = steps.div_ceil(PART);
+        let part = PART * (scene.t_end - scene.t_start);
+        let (early, late) = (scene.t_start + part, scene.t_end - part);
         let first_size = largest(simulation, &extents);
         while simulation.macro_step()? {
-            let done = simulation.steps_done();
+            let t = simulation.t();
             for extent in &mut extents {
-                extent.add(simulation.row().values(), done <= part, done > steps - part);
+                extent.add(simulation.row().values(), t <= early, t > late);
             }
             let size = largest(simulation, &extents);
             if first_size > 0.0 && size > DECIDED * first_size {

@@ -1,5 +1,7 @@
 //! One point of a stability map.
 
+use linchpin_master::scene::Scene;
+
 /// What was found at one point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
@@ -16,10 +18,13 @@ pub struct Cell {
 /// What a simulation showed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Simulated {
-    /// Largest growth of a position or velocity: its largest size in the last tenth of the macro steps over that in the
-    /// first; infinite if the run failed.
+    /// Of a linear scene the largest growth of a position or velocity: its largest size in the last tenth of the time over
+    /// that in the first. Of any other the largest deviation of the velocities from the reference run, over their largest
+    /// size there; not a number if the reference run itself diverged. Infinite if the run failed.
     pub growth: f64,
-    /// Number of macro steps.
+    /// Growth up to which the run is stable.
+    pub most: f64,
+    /// Number of macro steps of the length `coupling.macro_step`.
     pub steps: usize,
 }
 
@@ -35,7 +40,10 @@ pub enum Agreement {
 }
 
 /// A simulation in which a position or velocity has grown by more than this is unstable.
-const MOST_GROWTH: f64 = 10.0;
+pub(super) const MOST_GROWTH: f64 = 10.0;
+
+/// A simulation that is off by more than the whole motion is unstable.
+pub(super) const MOST_DEVIATION: f64 = 1.0;
 
 /// A map is stable up to this spectral radius: 1, and rounding.
 const STABLE_RADIUS: f64 = 1.0 + 1e-9;
@@ -45,9 +53,18 @@ const STABLE_RADIUS: f64 = 1.0 + 1e-9;
 const TELLING: f64 = 1e3;
 
 impl Simulated {
-    /// Whether positions and velocities stayed bounded.
+    pub(super) fn new(growth: f64, most: f64, scene: &Scene) -> Self {
+        let steps = (scene.t_end - scene.t_start) / scene.coupling.macro_step;
+        Self {
+            growth,
+            most,
+            steps: steps.round() as usize,
+        }
+    }
+
+    /// Whether the run reached its end, and nothing grew by more than it may.
     pub fn is_stable(&self) -> bool {
-        self.growth <= MOST_GROWTH
+        self.growth.is_nan() || self.growth <= self.most
     }
 }
 
@@ -71,7 +88,11 @@ mod tests {
     use super::*;
 
     fn agreement(growth: f64, radius: f64) -> Agreement {
-        let simulated = Simulated { growth, steps: 200 };
+        let simulated = Simulated {
+            growth,
+            most: MOST_GROWTH,
+            steps: 200,
+        };
         let cell = Cell {
             x: 1.0,
             y: 1.0,

@@ -2,6 +2,7 @@
 
 mod blow_up;
 mod cell;
+mod deviation;
 mod picture;
 mod table;
 
@@ -12,9 +13,12 @@ use rayon::prelude::*;
 
 use super::StudyError;
 use super::runs::{Variant, divergence, in_process};
+use crate::closed_form::ClosedForm;
 use blow_up::BlowUp;
 pub use cell::{Agreement, Cell, Simulated};
+use deviation::Deviation;
 pub use picture::draw_map;
+pub(super) use picture::plot_of;
 pub use table::{Count, summary, write_csv};
 
 /// The map of one case.
@@ -50,6 +54,23 @@ impl Grid {
         }
     }
 
+    /// The grid with at most `most` values of either axis, the first and the last one among them.
+    pub(super) fn thinned(&self, most: usize) -> Self {
+        let thinned = |axis: &Axis| {
+            let last = axis.values.len() - 1;
+            let kept = most.min(axis.values.len());
+            let place = |number: usize| number * last / kept.saturating_sub(1).max(1);
+            Axis {
+                values: (0..kept).map(|number| axis.values[place(number)]).collect(),
+                ..axis.clone()
+            }
+        };
+        Self {
+            x: thinned(&self.x),
+            y: thinned(&self.y),
+        }
+    }
+
     /// Number of points.
     pub fn len(&self) -> usize {
         self.x.values.len() * self.y.values.len()
@@ -64,6 +85,20 @@ impl Grid {
     fn points(&self) -> impl Iterator<Item = (f64, f64)> {
         let rows = self.y.values.iter();
         rows.flat_map(|&y| self.x.values.iter().map(move |&x| (x, y)))
+    }
+
+    /// The smallest macro step of all points, if these differ in their coupling only.
+    fn smallest_step(&self, scene: &Scene) -> Result<Option<f64>, StudyError> {
+        let mut keys = self.x.keys.iter().chain(&self.y.keys);
+        if !keys.all(|key| key.starts_with("coupling.")) {
+            return Ok(None);
+        }
+        let step = |point| Ok(self.scene(scene, point)?.coupling.macro_step);
+        let steps = self
+            .points()
+            .map(step)
+            .collect::<Result<Vec<f64>, StudyError>>()?;
+        Ok(steps.into_iter().reduce(f64::min))
     }
 
     /// The scene at one point.
@@ -87,7 +122,19 @@ pub fn map(
     grid: &Grid,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Vec<CaseMap>, StudyError> {
-    let studies = Variant::all(scene)?
+    map_variants(Variant::all(scene)?, grid, tick)
+}
+
+/// The same for variants of a scene.
+///
+/// # Errors
+/// [`StudyError`], as for [`map`].
+pub(super) fn map_variants(
+    variants: Vec<Variant>,
+    grid: &Grid,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Vec<CaseMap>, StudyError> {
+    let studies = variants
         .into_iter()
         .map(|variant| Study::new(variant, grid))
         .collect::<Result<Vec<_>, _>>()?;
@@ -117,42 +164,50 @@ pub fn map(
 struct Study {
     variant: Variant,
     models: Vec<Model>,
-    blow_up: BlowUp,
+    judge: Judge,
     no_radius: Option<String>,
+}
+
+/// How a simulation is judged.
+enum Judge {
+    /// A linear scene: by its own growth.
+    Growth(BlowUp),
+    /// Any other: by its deviation from a reference run.
+    Deviation(Deviation),
 }
 
 impl Study {
     fn new(variant: Variant, grid: &Grid) -> Result<Self, StudyError> {
         let models = variant.models()?;
-        let blow_up = BlowUp::new(variant.judged_columns(&models)?);
-        let mut study = Self {
+        let columns = variant.judged_columns(&models)?;
+        let no_radius = match grid.points().next() {
+            None => None,
+            Some(point) => reason_against_map(&variant, &grid.scene(&variant.scene, point)?)?,
+        };
+        let is_linear = no_radius.is_none() || ClosedForm::of(&variant.scene).is_some();
+        let judge = if is_linear {
+            Judge::Growth(BlowUp::new(columns))
+        } else {
+            let smallest_step = grid.smallest_step(&variant.scene)?;
+            Judge::Deviation(Deviation::new(&variant, columns, smallest_step)?)
+        };
+        Ok(Self {
             variant,
             models,
-            blow_up,
-            no_radius: None,
-        };
-        if let Some(point) = grid.points().next() {
-            let scene = grid.scene(&study.variant.scene, point)?;
-            study.no_radius = study.reason_against_map(&scene)?;
-        }
-        Ok(study)
-    }
-
-    /// Why scenes of this kind have no macro-step map; `None` if they have one.
-    fn reason_against_map(&self, scene: &Scene) -> Result<Option<String>, StudyError> {
-        match in_process(|connect| macro_step_map(scene, connect)) {
-            Ok(_) => Ok(None),
-            Err(ProbeError::Run(error)) => divergence(error)
-                .map(|_| None)
-                .map_err(|error| self.variant.failed(error)),
-            Err(reason) => Ok(Some(reason.to_string())),
-        }
+            judge,
+            no_radius,
+        })
     }
 
     fn cell(&self, grid: &Grid, point: (f64, f64)) -> Result<Cell, StudyError> {
         let scene = grid.scene(&self.variant.scene, point)?;
-        let simulated = in_process(|connect| self.blow_up.simulate(&scene, &self.models, connect))
-            .map_err(|error| self.variant.failed(error))?;
+        let simulated = match &self.judge {
+            Judge::Growth(judge) => {
+                in_process(|connect| judge.simulate(&scene, &self.models, connect))
+            }
+            Judge::Deviation(judge) => judge.simulate(&scene),
+        };
+        let simulated = simulated.map_err(|error| self.variant.failed(error))?;
         let radius = match &self.no_radius {
             Some(_) => None,
             None => self.radius(&scene)?,
@@ -175,5 +230,16 @@ impl Study {
                 .map_err(|error| self.variant.failed(error)),
             Err(_) => Ok(None),
         }
+    }
+}
+
+/// Why scenes of this kind have no macro-step map; `None` if they have one.
+fn reason_against_map(variant: &Variant, scene: &Scene) -> Result<Option<String>, StudyError> {
+    match in_process(|connect| macro_step_map(scene, connect)) {
+        Ok(_) => Ok(None),
+        Err(ProbeError::Run(error)) => divergence(error)
+            .map(|_| None)
+            .map_err(|error| variant.failed(error)),
+        Err(reason) => Ok(Some(reason.to_string())),
     }
 }

@@ -13,17 +13,21 @@ use crate::plot::{MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Ve
 /// # Errors
 /// [`PlotError`]: too many cases, nothing to draw, unwritable path.
 pub fn draw_map(maps: &[CaseMap], grid: &Grid, stem: &Path) -> Result<(), PlotError> {
+    map(&plot_of(maps, grid), stem)
+}
+
+/// The picture that [`draw_map`] draws.
+pub fn plot_of(maps: &[CaseMap], grid: &Grid) -> StabilityMap {
     let panel = |case: &CaseMap| MapPanel {
         title: case.case.clone(),
         x: axis(&grid.x),
         y: axis(&grid.y),
         cells: case.cells.iter().map(drawn).collect(),
     };
-    let plot = StabilityMap {
+    StabilityMap {
         panels: maps.iter().map(panel).collect(),
         growth_label: "spectral radius".to_owned(),
-    };
-    map(&plot, stem)
+    }
 }
 
 fn axis(axis: &scene::Axis) -> MapAxis {

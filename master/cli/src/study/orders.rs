@@ -1,23 +1,24 @@
 //! Observed orders of convergence.
 
-use super::{ConvergeRun, Quantity};
+/// Macro step and error of a run; `None` without an error.
+pub type Point = Option<(f64, f64)>;
 
 /// Order between each run and the one with the next larger macro step: `ln(e_1/e_2) / ln(H_1/H_2)`.
-pub fn neighbouring(runs: &[ConvergeRun], quantity: Quantity) -> Vec<Option<f64>> {
-    let points: Vec<_> = runs.iter().map(|run| point(run, quantity)).collect();
-    let between = |pair: &[Option<(f64, f64)>]| {
+pub fn neighbouring(points: impl Iterator<Item = Point>) -> Vec<Option<f64>> {
+    let points: Vec<Point> = points.map(logarithmic).collect();
+    let between = |pair: &[Point]| {
         let (coarse, fine) = (pair[0]?, pair[1]?);
         Some((coarse.1 - fine.1) / (coarse.0 - fine.0))
     };
     std::iter::once(None)
         .chain(points.windows(2).map(between))
-        .take(runs.len())
+        .take(points.len())
         .collect()
 }
 
 /// Slope of the straight line that fits `ln e` over `ln H` best; `None` with fewer than two points.
-pub fn least_squares(runs: &[ConvergeRun], quantity: Quantity) -> Option<f64> {
-    let points: Vec<_> = runs.iter().filter_map(|run| point(run, quantity)).collect();
+pub fn least_squares(points: impl Iterator<Item = Point>) -> Option<f64> {
+    let points: Vec<_> = points.filter_map(logarithmic).collect();
     if points.len() < 2 {
         return None;
     }
@@ -32,8 +33,8 @@ pub fn least_squares(runs: &[ConvergeRun], quantity: Quantity) -> Option<f64> {
     Some(products / squares)
 }
 
-/// `(ln H, ln e)`; an error of 0 has no place.
-fn point(run: &ConvergeRun, quantity: Quantity) -> Option<(f64, f64)> {
-    let error = run.error(quantity).filter(|error| *error > 0.0)?;
-    Some((run.macro_step.ln(), error.ln()))
+/// An error of 0 has no place.
+fn logarithmic(point: Point) -> Point {
+    let (macro_step, error) = point.filter(|(_, error)| *error > 0.0)?;
+    Some((macro_step.ln(), error.ln()))
 }

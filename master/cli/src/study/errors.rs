@@ -4,10 +4,10 @@ use std::convert::Infallible;
 
 use linchpin_master::results::Row;
 
-use super::reference::{Reference, places};
+use super::columns::{Column, Kind, places, sum};
+use super::reference::Reference;
 use crate::error_norm::ColumnError;
 use crate::simulate::Recorder;
-use crate::study::runs::Kind;
 
 /// What an error is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,8 +60,10 @@ impl Errors {
 /// Compares every row with the reference.
 pub struct ErrorRecorder<'a> {
     reference: &'a Reference,
-    columns: &'a [(String, Kind)],
-    places: Vec<Option<usize>>,
+    columns: &'a [Column],
+    /// What the run calls the columns.
+    names: Vec<Option<&'a str>>,
+    places: Vec<Option<Vec<usize>>>,
     errors: Vec<ColumnError>,
     at_mid_step: Option<ColumnError>,
     previous: Option<f64>,
@@ -69,11 +71,23 @@ pub struct ErrorRecorder<'a> {
 
 impl<'a> ErrorRecorder<'a> {
     /// `are_means`: the multipliers are means over the step.
-    pub fn new(reference: &'a Reference, columns: &'a [(String, Kind)], are_means: bool) -> Self {
-        let knows_mid_steps = matches!(reference, Reference::ClosedForm { .. });
+    pub fn new(reference: &'a Reference, columns: &'a [Column], are_means: bool) -> Self {
+        let names = columns.iter().map(|column| Some(column.name.as_str()));
+        Self::of_names(reference, columns, names.collect(), are_means)
+    }
+
+    /// For a run with other names for the columns; `None` is a column that it does not have.
+    pub fn of_names(
+        reference: &'a Reference,
+        columns: &'a [Column],
+        names: Vec<Option<&'a str>>,
+        are_means: bool,
+    ) -> Self {
+        let knows_mid_steps = reference.is_dense();
         Self {
             reference,
             columns,
+            names,
             places: Vec::new(),
             errors: vec![ColumnError::default(); columns.len()],
             at_mid_step: (are_means && knows_mid_steps).then(ColumnError::default),
@@ -81,10 +95,11 @@ impl<'a> ErrorRecorder<'a> {
         }
     }
 
+    /// The errors so far.
     pub fn errors(&self) -> Errors {
         let of = |wanted: &[Kind]| {
             let columns = self.columns.iter().zip(&self.errors);
-            let chosen = columns.filter(|((_, kind), _)| wanted.contains(kind));
+            let chosen = columns.filter(|(column, _)| wanted.contains(&column.kind));
             ColumnError::together(chosen.map(|(_, error)| *error))
         };
         let errors = Quantity::ALL.map(|quantity| match quantity {
@@ -111,21 +126,22 @@ impl Recorder for ErrorRecorder<'_> {
     type Error = Infallible;
 
     fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
-        self.places = places(row, self.columns);
+        let names = self.names.iter();
+        self.places = names.map(|name| places(row, (*name)?)).collect();
         Ok(())
     }
 
     fn record(&mut self, row: &Row) -> Result<(), Infallible> {
         let t = row.values()[0];
         for column in 0..self.columns.len() {
-            let Some(place) = self.places[column] else {
+            let Some(places) = &self.places[column] else {
                 continue;
             };
-            let value = row.values()[place];
+            let value = sum(row, places);
             if let Some(exact) = self.reference.value(column, t) {
                 self.errors[column].add(value, exact);
             }
-            if let (Kind::Multiplier, Some(previous)) = (self.columns[column].1, self.previous) {
+            if let (Kind::Multiplier, Some(previous)) = (self.columns[column].kind, self.previous) {
                 self.add_mid_step(column, value, f64::midpoint(previous, t));
             }
         }

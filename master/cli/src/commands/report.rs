@@ -1,0 +1,91 @@
+//! `linchpin report`: scenes with many settings, and what their errors cost, on one page.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use linchpin_master::scene::{is_study, load_study};
+
+use super::CommandError;
+use super::common::{OutputArguments, print};
+use crate::study::StudyError;
+use crate::study::progress;
+use crate::study::report::{Depth, Picture, Plan, json, page, report, write_csv};
+
+/// Compare coupling methods on scenes: errors against cost, residuals, energy, stability, on one page
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  linchpin report
+  linchpin report scenes/report.toml --out out/report
+  linchpin report scenes/oscillator.toml scenes/double-pendulum.toml --quick
+
+A study lists scenes, settings and macro steps; a scene alone gets the settings that the shipped study has for every scene.
+Runs one after the other, in this process, since their time is measured. Writes DIR/report.html, which needs no network and
+nothing beside it, DIR/report.csv (a row for every run), DIR/report.json, and every picture of the page as DIR/SCENE-NAME.svg
+and .png. A run that diverges is a row that says so.")]
+pub struct Arguments {
+    /// One study file, or scene files
+    #[arg(
+        value_name = "STUDY.toml | SCENE.toml",
+        default_value = "scenes/report.toml"
+    )]
+    files: Vec<PathBuf>,
+
+    /// The three largest macro steps, once, and coarse maps: whether everything works
+    #[arg(long)]
+    quick: bool,
+
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+impl Arguments {
+    fn plan(&self) -> Result<Plan, CommandError> {
+        let depth = match self.quick {
+            true => Depth::Quick,
+            false => Depth::Full,
+        };
+        let study = self.files.iter().find(|file| is_study(file));
+        match (study, &self.files[..]) {
+            (Some(study), [_]) => Ok(Plan::of_study(&load_study(study)?, depth)?),
+            (Some(study), _) => Err(CommandError::StudyAmongOthers {
+                path: study.clone(),
+            }),
+            (None, files) => Ok(Plan::of_scenes(files, depth)?),
+        }
+    }
+}
+
+/// Runs the study and writes page and tables.
+pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    let plan = arguments.plan()?;
+    let folder = arguments.output.prepare_for(&plan.name)?;
+    let shows_progress = arguments.output.shows_progress();
+    let bar = progress::bar(plan.number_of_tasks(), "runs", shows_progress);
+    let found = report(&plan, &|| bar.inc(1))?;
+    bar.finish_and_clear();
+    let table = folder.join("report.csv");
+    write_csv(&found, &table).map_err(|source| CommandError::Table {
+        path: table,
+        source,
+    })?;
+    let json = json(&found).map_err(StudyError::Json)?;
+    write(&folder.join("report.json"), &json)?;
+    write(&folder.join("report.html"), &page(&found)?)?;
+    for scene in &found.scenes {
+        for picture in Picture::all(scene) {
+            picture.draw(&folder.join(format!("{}-{}", scene.name, picture.ending)))?;
+        }
+    }
+    if !arguments.output.quiet {
+        let path = folder.join("report.html");
+        print(format_args!("report in {}\n", path.display()))?;
+    }
+    Ok(())
+}
+
+fn write(path: &Path, text: &str) -> Result<(), CommandError> {
+    fs::write(path, text).map_err(|source| CommandError::Unwritable {
+        path: path.to_owned(),
+        source,
+    })
+}

@@ -1,0 +1,112 @@
+//! The report of a study: every scene with every setting, what the errors cost, and one page that shows it all.
+//!
+//! Runs whose time is measured run one after the other, in this process and without sockets; stability maps, which count
+//! nothing, run in parallel.
+
+mod envelope;
+mod page;
+mod pictures;
+mod plan;
+mod runs;
+mod scene;
+mod summary;
+mod table;
+mod trace;
+
+use linchpin_master::scene::Measure;
+
+use super::StudyError;
+use super::errors::Quantity;
+use super::orders;
+use super::stability::{CaseMap, Grid};
+pub use envelope::{Bound, Cheapest, Cost, cheapest, cost_of, ratio};
+pub use page::text as page;
+pub use pictures::Picture;
+pub use plan::{Depth, Plan};
+pub use runs::{Ending, TimedRun, ToleranceRun};
+pub use summary::{EnvelopeRow, Ratio, envelope};
+pub use table::{json, write_csv};
+use trace::Trace;
+
+/// Everything that a report shows.
+pub struct Report {
+    /// Name of the study.
+    pub name: String,
+    /// Its heading.
+    pub title: String,
+    /// Relative errors whose cost is asked for.
+    pub targets: Vec<f64>,
+    /// How much of the study was run.
+    pub depth: Depth,
+    /// Its scenes.
+    pub scenes: Vec<SceneReport>,
+}
+
+/// One scene with all its settings.
+pub struct SceneReport {
+    /// Name in the study.
+    pub name: String,
+    /// Its file.
+    pub file: String,
+    /// What the errors are of.
+    pub quantity: Quantity,
+    /// What the runs are compared with, for a reader.
+    pub reference: String,
+    /// Macro step of the curves over time in s.
+    pub trace_step: f64,
+    /// The settings in the order of the study.
+    pub settings: Vec<SettingReport>,
+    /// Runs of the monolithic scene over the tolerances of its solver; empty if there is none.
+    pub monolithic: Vec<ToleranceRun>,
+    /// Stability maps, one for each setting that the scene can have.
+    maps: Option<(Grid, Vec<CaseMap>)>,
+}
+
+/// One setting of one scene.
+pub struct SettingReport {
+    /// Its name.
+    pub name: String,
+    /// Its coupling method.
+    pub method: String,
+    /// Whether the paper itself uses it.
+    pub is_paper: bool,
+    /// What it sets, as `KEY=VALUE`.
+    pub set: Vec<String>,
+    /// One run for each macro step, from the largest to the smallest.
+    pub runs: Vec<TimedRun>,
+    trace: Trace,
+}
+
+/// Makes all runs of a plan; `tick` is called after each run and each point of a map.
+///
+/// # Errors
+/// [`StudyError`]: a mistake in a scene or setting, no reference, an interrupt. A run that diverges is no error, nor is a method
+/// that a scene cannot have.
+pub fn report(plan: &Plan, tick: &(dyn Fn() + Sync)) -> Result<Report, StudyError> {
+    let scenes = plan.scenes.iter();
+    let scenes = scenes.map(|planned| scene::run(planned, plan.depth, tick));
+    Ok(Report {
+        name: plan.name.clone(),
+        title: plan.title.clone(),
+        targets: plan.targets.clone(),
+        depth: plan.depth,
+        scenes: scenes.collect::<Result<_, _>>()?,
+    })
+}
+
+fn quantity_of(measure: Measure) -> Quantity {
+    match measure {
+        Measure::Position => Quantity::Position,
+        Measure::Velocity => Quantity::Velocity,
+        Measure::State => Quantity::State,
+        Measure::Multiplier => Quantity::Multiplier,
+    }
+}
+
+impl SettingReport {
+    /// Macro step and error of each run.
+    fn points(&self, quantity: Quantity) -> impl Iterator<Item = orders::Point> {
+        let runs = self.runs.iter();
+        runs.map(move |run| Some((run.macro_step, run.error(quantity)?)))
+    }
+}

@@ -1,0 +1,204 @@
+//! The pictures of one scene of a report.
+
+use std::path::Path;
+
+use linchpin_master::results::Statistics;
+
+use super::runs::USELESS;
+use super::trace::Trace;
+use super::{Ending, SceneReport, SettingReport, TimedRun};
+use crate::plot::{
+    ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, Scale, StabilityMap, TimePanel,
+    TimePanels, TimeSeries, convergence, convergence_svg, map, map_svg, time_panels,
+    time_panels_svg,
+};
+use crate::study::orders;
+use crate::study::stability::plot_of;
+
+/// Name of the monolithic scene in legends.
+pub const MONOLITHIC: &str = "monolithic";
+
+/// Most panels of one picture of maps.
+const MOST_MAPS: usize = 12;
+
+/// A picture of a scene.
+pub struct Picture {
+    /// Ending of its file's name.
+    pub ending: String,
+    /// What it shows.
+    pub caption: String,
+    plot: Plot,
+}
+
+enum Plot {
+    Curves(ConvergencePlot),
+    OverTime(TimePanels),
+    Map(StabilityMap),
+}
+
+impl Picture {
+    /// All pictures of a scene that have something to show.
+    pub fn all(scene: &SceneReport) -> Vec<Self> {
+        let cost = work_precision(scene).map(|plot| Self {
+            ending: "cost".to_owned(),
+            caption: "Error against cost and macro step; runs that diverged or are off by the whole solution \
+                      stand in the table only."
+                .to_owned(),
+            plot: Plot::Curves(plot),
+        });
+        let step = scene.trace_step;
+        let time = over_time(scene).map(|plot| Self {
+            ending: "time".to_owned(),
+            caption: format!(
+                "Largest residual of all joints, and energy, over time; H = {step:e} s."
+            ),
+            plot: Plot::OverTime(plot),
+        });
+        let maps = maps(scene).into_iter().enumerate();
+        let maps = maps.map(|(number, plot)| Self {
+            ending: format!("stability-{}", number + 1),
+            caption: "Stability: circles are stable, crosses are not.".to_owned(),
+            plot: Plot::Map(plot),
+        });
+        cost.into_iter().chain(time).chain(maps).collect()
+    }
+
+    /// As the text of an SVG.
+    pub fn svg(&self, name: &str) -> Result<String, PlotError> {
+        match &self.plot {
+            Plot::Curves(plot) => convergence_svg(plot, name),
+            Plot::OverTime(plot) => time_panels_svg(plot, name),
+            Plot::Map(plot) => map_svg(plot, name),
+        }
+    }
+
+    /// To `STEM.svg` and `STEM.png`.
+    pub fn draw(&self, stem: &Path) -> Result<(), PlotError> {
+        match &self.plot {
+            Plot::Curves(plot) => convergence(plot, stem),
+            Plot::OverTime(plot) => time_panels(plot, stem),
+            Plot::Map(plot) => map(plot, stem),
+        }
+    }
+}
+
+/// Errors over time, integrations, exchanges and macro step; `None` if no run has an error.
+fn work_precision(scene: &SceneReport) -> Option<ConvergencePlot> {
+    let count = |count: fn(&Statistics) -> u64| {
+        move |run: &TimedRun| Some(count(run.ending.statistics()?) as f64)
+    };
+    let mut over_time = panel(scene, "wall time in s", &|run| run.ending.wall_time());
+    over_time.curves.extend(monolithic(scene));
+    let integrations = "subsystem integrations";
+    let mut over_step = panel(scene, "H in s", &|run| Some(run.macro_step));
+    over_step.reference_slopes = slopes(scene);
+    let panels = vec![
+        over_time,
+        panel(scene, integrations, &count(|own| own.integrations)),
+        panel(scene, "exchanges with workers", &count(|own| own.exchanges)),
+        over_step,
+    ];
+    let has_points = |panel: &ConvergencePanel| {
+        let mut points = panel.curves.iter().flat_map(|curve| &curve.points);
+        points.any(|(x, y)| x.is_finite() && *y > 0.0)
+    };
+    let can_be_drawn = panels.iter().all(has_points);
+    can_be_drawn.then_some(ConvergencePlot { panels })
+}
+
+fn panel(
+    scene: &SceneReport,
+    x_label: &str,
+    x: &dyn Fn(&TimedRun) -> Option<f64>,
+) -> ConvergencePanel {
+    let point = |run: &TimedRun| {
+        let error = run.error(scene.quantity)?;
+        (error < USELESS).then_some((x(run)?, error))
+    };
+    let curve = |setting: &SettingReport| ConvergenceCurve {
+        name: setting.name.clone(),
+        // A run without an error is a gap in the line.
+        points: setting
+            .runs
+            .iter()
+            .map(|run| point(run).unwrap_or((f64::NAN, f64::NAN)))
+            .collect(),
+    };
+    ConvergencePanel {
+        title: String::new(),
+        x_label: x_label.to_owned(),
+        y_label: format!("error of the {} (NRMS)", scene.quantity.name()),
+        curves: scene.settings.iter().map(curve).collect(),
+        reference_slopes: Vec::new(),
+    }
+}
+
+fn monolithic(scene: &SceneReport) -> Option<ConvergenceCurve> {
+    let point = |ending: &Ending| Some((ending.wall_time()?, ending.error(scene.quantity)?));
+    let points = scene.monolithic.iter().filter_map(|run| point(&run.ending));
+    let points: Vec<_> = points.collect();
+    (!points.is_empty()).then(|| ConvergenceCurve {
+        name: MONOLITHIC.to_owned(),
+        points,
+    })
+}
+
+/// Whole orders that the settings show over all macro steps.
+fn slopes(scene: &SceneReport) -> Vec<f64> {
+    let order = |setting: &SettingReport| {
+        let points = setting.points(scene.quantity);
+        orders::least_squares(points).map(f64::round)
+    };
+    let mut slopes: Vec<f64> = scene.settings.iter().filter_map(order).collect();
+    slopes.retain(|slope| (1.0..=6.0).contains(slope));
+    slopes.sort_by(f64::total_cmp);
+    slopes.dedup();
+    slopes
+}
+
+/// Residuals, and energy if the scene tells it, over time; `None` if there is neither.
+fn over_time(scene: &SceneReport) -> Option<TimePanels> {
+    let panels = [
+        time_panel(scene, "residual (position level) in m, rad", |trace| {
+            trace.residual.items()
+        }),
+        time_panel(scene, "relative error of the energy", |trace| {
+            trace.energy.items()
+        }),
+    ];
+    let panels: Vec<TimePanel> = panels.into_iter().flatten().collect();
+    (!panels.is_empty()).then(|| TimePanels {
+        title: None,
+        time_label: "t in s".to_owned(),
+        panels,
+    })
+}
+
+fn time_panel(
+    scene: &SceneReport,
+    label: &str,
+    points: impl Fn(&Trace) -> &[(f64, f64)],
+) -> Option<TimePanel> {
+    let series = |setting: &SettingReport| {
+        let (t, y): (Vec<f64>, Vec<f64>) = points(&setting.trace).iter().copied().unzip();
+        let name = setting.name.clone();
+        TimeSeries { name, t, y }
+    };
+    let series: Vec<TimeSeries> = scene.settings.iter().map(series).collect();
+    let mut values = series.iter().flat_map(|series| &series.y);
+    let can_be_drawn = values.any(|value| value.is_finite() && *value > 0.0);
+    can_be_drawn.then(|| TimePanel {
+        y_label: label.to_owned(),
+        y_scale: Scale::Logarithmic,
+        series,
+    })
+}
+
+/// The stability maps, as many pictures as they need.
+fn maps(scene: &SceneReport) -> Vec<StabilityMap> {
+    let Some((grid, maps)) = &scene.maps else {
+        return Vec::new();
+    };
+    let pictures = maps.chunks(MOST_MAPS);
+    pictures.map(|maps| plot_of(maps, grid)).collect()
+}
