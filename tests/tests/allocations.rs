@@ -74,7 +74,13 @@ fn a_macro_step_allocates_nothing() {
             "coupling.index=1",
             "coupling.tolerance=1e-8",
         ],
-        &["coupling.method=hermite", "coupling.tolerance=1e-10"],
+        &["coupling.method=hermite"],
+        &["coupling.method=hermite", "coupling.jacobian=every-step"],
+        &[
+            "coupling.method=hermite",
+            "coupling.jacobian=every-step",
+            "coupling.tolerance=1e-10",
+        ],
         &[
             "coupling.method=baumgarte",
             "coupling.index=1",

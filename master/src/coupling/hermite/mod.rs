@@ -15,13 +15,13 @@
 //! power of `H` for each integration. That is why APV has order 5 where its multipliers have order 3.
 //!
 //! Motion that is exchanged is a polynomial through position and velocity at both ends and the acceleration at the start: the
-//! end values are unknowns, with the conditions that they are what the partner's outputs say ([`arcs`]). All conditions are
-//! linearised about the prediction with columns of the workers for each shape, and solved together ([`stack`]).
+//! end values are unknowns, with the conditions that they are what the partner's outputs say (`arcs`). All conditions are
+//! linearised about the prediction with columns of the workers for each shape, and solved together (`stack`).
 //!
-//! * [`variant`]: which conditions;
-//! * [`arcs`]: the curves of all variables;
-//! * [`estimate`]: the error of a step;
-//! * [`stack`]: the equations of all unknowns.
+//! * `variant`: which conditions;
+//! * `arcs`: the curves of all variables;
+//! * `estimate`: the error of a step;
+//! * `stack`: the equations of all unknowns.
 
 mod arcs;
 mod estimate;
@@ -239,6 +239,8 @@ impl Corrector for Hermite {
             self.columns_of = step.length;
         }
         if self.variant.starts_anew() && with_columns {
+            // Also of a step that is repeated from a point that was linearised about before.
+            self.start_is_known = false;
             self.request_evaluation(parts, step.start);
         } else {
             parts.forgo_evaluation();
