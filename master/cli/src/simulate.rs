@@ -39,7 +39,7 @@ pub enum SimulateError<E> {
 }
 
 /// Runs `scene` to its end. The first and the last macro point are always recorded, and every
-/// `output.every`-th between them.
+/// `output.every`-th between them; with `output.interval` every `output.every`-th sample instead.
 ///
 /// # Errors
 /// What stopped the co-simulation, or the recorder's own error; [`RunError::Interrupted`] at the request of the
@@ -74,7 +74,19 @@ pub fn simulate<R: Recorder>(
         .map_err(|error| stopped(simulation.t(), error))?
     {
         let is_finished = simulation.is_finished();
-        if is_finished || simulation.steps_done() % scene.output.every == 0 {
+        let every = scene.output.every as u64;
+        for place in 0..simulation.samples() {
+            if let Some((number, row)) = simulation.sample(place)
+                && number.is_multiple_of(every)
+            {
+                recorder.record(row).map_err(SimulateError::Record)?;
+            }
+        }
+        let number = match scene.output.interval {
+            Some(_) => simulation.sample_here(),
+            None => Some(simulation.steps_done() as u64),
+        };
+        if is_finished || number.is_some_and(|number| number.is_multiple_of(every)) {
             recorder
                 .record(simulation.row())
                 .map_err(SimulateError::Record)?;

@@ -10,6 +10,7 @@ mod panels;
 mod penalty;
 mod refusal;
 mod renewal;
+mod samples;
 mod signal_loop;
 mod start;
 mod step_size;
@@ -39,6 +40,7 @@ use crate::time::{MacroStep, TimePlan};
 use refusal::refuse_setup;
 pub use renewal::Passes;
 use renewal::Renewal;
+use samples::Samples;
 pub use start::{Connect, Options, describe};
 use step_size::StepSize;
 pub(crate) use subsystem::exchange;
@@ -52,6 +54,10 @@ pub struct CoSimulation {
     /// Present if the macro step varies.
     step_size: Option<StepSize>,
     row: Row,
+    /// For samples inside the last macro step.
+    sample_row: Row,
+    multipliers: Vec<f64>,
+    last_length: f64,
     mechanism: Option<Mechanism>,
     guard: Guard,
     statistics: Statistics,
@@ -63,6 +69,8 @@ pub struct Parts {
     pub(crate) subsystems: Vec<Subsystem>,
     /// Joints tied to inputs and outputs.
     pub(crate) layout: Layout,
+    /// Present if results are wanted at fixed times.
+    pub(crate) samples: Option<Samples>,
 }
 
 /// The coupling method with its state.
@@ -127,6 +135,7 @@ impl CoSimulation {
             self.plan.move_on(self.plan.following(step.length));
         }
         let step = outcome.step;
+        self.last_length = step.length;
         self.row.read(step, &self.parts, self.scheme.multipliers());
         if let Some(step_size) = &mut self.step_size {
             step_size.observe(&self.parts);
@@ -165,6 +174,36 @@ impl CoSimulation {
     /// Everything that is recorded of the present macro point.
     pub fn row(&self) -> &Row {
         &self.row
+    }
+
+    /// Number of samples inside the last macro step.
+    pub fn samples(&self) -> usize {
+        let samples = self.parts.samples.as_ref();
+        samples.map_or(0, |samples| samples.offsets().len())
+    }
+
+    /// Number of a sample inside the last macro step, counted from `t_start`, and everything that is recorded of it.
+    pub fn sample(&mut self, place: usize) -> Option<(u64, &Row)> {
+        let samples = self.parts.samples.as_ref()?;
+        let length = *samples.offsets().get(place)?;
+        let (number, end) = samples.inside(place);
+        let sample = MacroStep {
+            start: end - length,
+            length,
+            end,
+        };
+        let Scheme::Corrected(method) = &self.scheme else {
+            return None;
+        };
+        method.multipliers_at(length, self.last_length, &mut self.multipliers);
+        self.sample_row
+            .read_sample(sample, place, &self.parts, &self.multipliers);
+        Some((number, &self.sample_row))
+    }
+
+    /// Number of the sample at the present macro point, if one is there.
+    pub fn sample_here(&self) -> Option<u64> {
+        self.parts.samples.as_ref()?.at(self.t())
     }
 
     /// The markers of all subsystems, if their positions are recorded ([`Options::record_markers`]).
@@ -213,6 +252,7 @@ impl Parts {
             let inputs = self.layout.inputs_of(number).len();
             advance.signals.resize_with(inputs, Default::default);
         }
+        self.request_samples(step);
     }
 
     /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0; subsystems whose outputs nobody

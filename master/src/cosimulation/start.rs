@@ -9,6 +9,7 @@ use super::initial::InitialState;
 use super::mechanism::Mechanism;
 use super::refusal::{Refusals, refuse_setup};
 use super::renewal::Renewal;
+use super::samples::Samples;
 use super::step_size::{plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
@@ -89,7 +90,11 @@ impl CoSimulation {
             }
         }
         refusals.finish()?;
-        let mut parts = Parts { subsystems, layout };
+        let mut parts = Parts {
+            subsystems,
+            layout,
+            samples: samples_of(scene)?,
+        };
         let free_velocities =
             velocities::choose(scene, &coupled, &models, &mut requests, &mut parts)?;
         let initial = initial_state(scene, &coupled, &parts, options)?;
@@ -110,12 +115,16 @@ impl CoSimulation {
         };
         let mut statistics = Statistics::new(&parts.layout);
         statistics.free_velocities = free_velocities;
+        let multipliers = parts.layout.rows.len();
         Ok(Self {
             parts,
             scheme,
             renewal: Renewal::new(scene.coupling.jacobian, scene.coupling.iterations),
             plan,
             step_size,
+            sample_row: row.clone(),
+            multipliers: vec![0.0; multipliers],
+            last_length: 0.0,
             row,
             mechanism,
             guard,
@@ -384,4 +393,19 @@ fn history_of(
 /// The scene has checked that the time span is at least one step long.
 fn first_step(plan: &TimePlan) -> MacroStep {
     plan.step().unwrap_or_else(|| super::at_start(plan.t()))
+}
+
+/// The samples that the scene asks for.
+fn samples_of(scene: &Scene) -> Result<Option<Samples>, RunError> {
+    let Some(interval) = scene.output.interval else {
+        return Ok(None);
+    };
+    if !scene.coupling.method.keeps_columns() {
+        let message = "results at fixed times come with hermite, weighted and baumgarte";
+        let help = "leave output.interval out: with a fixed macro step output.every does the same";
+        return Err(scene
+            .error("output.interval", message, Some(help.into()))
+            .into());
+    }
+    Ok(Some(Samples::new(scene.t_start, interval)))
 }

@@ -292,6 +292,12 @@ impl Subsystem {
         signal_of(&mut advance.signals, place, place)
     }
 
+    /// Outputs at a sample inside the last advance, in the order of the names.
+    pub(crate) fn sample(&self, place: usize) -> &[f64] {
+        let sample = self.reply.samples.get(place);
+        sample.map_or(&[], |outputs| &outputs.values)
+    }
+
     /// A look-ahead that was prepared.
     pub(crate) fn look(&mut self, ahead: Ahead) -> &mut v1::Predict {
         let look = match ahead {

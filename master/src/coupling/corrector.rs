@@ -44,6 +44,9 @@ pub(crate) trait Corrector: Send {
     #[expect(dead_code, reason = "for steps that are repeated")]
     fn move_back(&mut self);
 
+    /// Writes the multipliers at `tau` after the start of the last step, `length` long, that [`Corrector::move_on`] took.
+    fn multipliers_at(&self, tau: f64, length: f64, multipliers: &mut [f64]);
+
     /// How well the outputs after the advance meet what their linearisation promised.
     fn judge(&mut self, parts: &Parts) -> Verdict;
 

@@ -242,6 +242,13 @@ impl Corrector for SemiImplicit {
         self.columns.forget_responses();
     }
 
+    fn multipliers_at(&self, tau: f64, length: f64, multipliers: &mut [f64]) {
+        let curve = Curve::Interpolated(&self.corrected);
+        for (row, multiplier) in multipliers.iter_mut().enumerate() {
+            *multiplier = self.before.value(row, curve, length, tau);
+        }
+    }
+
     fn judge(&mut self, parts: &Parts) -> Verdict {
         self.promise.judge(&self.system, parts, &self.change)
     }

@@ -14,6 +14,8 @@ pub struct Integrations {
     pub passes: u64,
     /// With corrected inputs, to stay.
     pub corrector: u64,
+    /// For results at fixed times inside a macro step.
+    pub samples: u64,
 }
 
 /// What a look-ahead is for.
@@ -28,12 +30,15 @@ pub enum Cause {
 impl Integrations {
     /// All together.
     pub fn sum(&self) -> u64 {
-        self.predictor + self.columns + self.passes + self.corrector
+        self.predictor + self.columns + self.passes + self.corrector + self.samples
     }
 
     /// Counts what a request asks for; a look-ahead of zero length evaluates and integrates nothing.
     pub(crate) fn count(&mut self, request: &ExchangeRequest, looks_ahead_for: Cause) {
-        self.corrector += u64::from(request.advance.is_some());
+        if let Some(advance) = &request.advance {
+            self.corrector += 1;
+            self.samples += advance.samples.len() as u64;
+        }
         let Some(predict) = request.predict.as_ref().filter(|one| one.step > 0.0) else {
             return;
         };
@@ -50,5 +55,6 @@ impl Integrations {
         self.columns += other.columns;
         self.passes += other.passes;
         self.corrector += other.corrector;
+        self.samples += other.samples;
     }
 }

@@ -85,16 +85,37 @@ impl Row {
 
     /// Reads the values at the end of `step`.
     pub(crate) fn read(&mut self, step: MacroStep, parts: &Parts, multipliers: &[f64]) {
+        let outputs = |subsystem: usize| &parts.subsystems[subsystem].outputs[..];
+        self.read_at(step, parts, outputs, multipliers);
+    }
+
+    /// Reads the values at a sample inside the macro step; `sample` lasts until there.
+    pub(crate) fn read_sample(
+        &mut self,
+        sample: MacroStep,
+        place: usize,
+        parts: &Parts,
+        multipliers: &[f64],
+    ) {
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].sample(place);
+        self.read_at(sample, parts, outputs, multipliers);
+    }
+
+    fn read_at<'a>(
+        &mut self,
+        step: MacroStep,
+        parts: &Parts,
+        outputs: impl Fn(usize) -> &'a [f64],
+        multipliers: &[f64],
+    ) {
         self.values.clear();
         self.values.push(step.end);
-        for subsystem in &parts.subsystems {
-            self.values.extend_from_slice(&subsystem.outputs);
+        for subsystem in 0..parts.subsystems.len() {
+            self.values.extend_from_slice(outputs(subsystem));
         }
         self.values.extend_from_slice(multipliers);
         for (number, joint) in parts.layout.joints.iter().enumerate() {
-            let motion = motion_of(&parts.layout, number, |s| {
-                parts.subsystems[s].coupling_values()
-            });
+            let motion = motion_of(&parts.layout, number, &outputs);
             for condition in joint.joint.conditions() {
                 let values = condition.values(parts.layout.level, &motion);
                 self.values.extend_from_slice(&values[..self.levels]);

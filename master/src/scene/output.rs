@@ -6,6 +6,7 @@ use super::reader::{Field, Problems, Section};
 use super::reference::read_variable;
 use super::resolve::collect;
 use super::resolved::{Output, Panel};
+use super::step_control::read_step;
 
 const VARIABLES: &str = "a list of outputs such as [\"mass1.v\"]";
 const COLUMNS: &str = "a list of result columns such as [\"link.lambda\", \"a.energy + b.energy\"]";
@@ -13,20 +14,26 @@ const COLUMNS: &str = "a list of result columns such as [\"link.lambda\", \"a.en
 pub(super) fn read(
     root: &Section<'_>,
     subsystems: &Registry<'_>,
+    duration: Option<f64>,
     problems: &mut Problems<'_>,
 ) -> Option<Output> {
     let Some(field) = root.get("output") else {
         return Some(Output {
             every: 1,
+            interval: None,
             variables: None,
             panels: Vec::new(),
         });
     };
     let section = field.section(problems)?;
-    section.allow_only(&["every", "variables", "panel"], problems);
+    section.allow_only(&["every", "interval", "variables", "panel"], problems);
     let every = section
         .get("every")
         .map_or(Some(1), |field| field.whole(1, usize::MAX, problems));
+    let interval = match section.get("interval") {
+        Some(field) => read_step(&field, duration, problems).map(Some),
+        None => Some(None),
+    };
     let variables = match section.get("variables") {
         Some(field) => field
             .items(VARIABLES, problems)
@@ -48,6 +55,7 @@ pub(super) fn read(
     };
     Some(Output {
         every: every?,
+        interval: interval?,
         variables: variables?,
         panels: panels?,
     })

@@ -84,7 +84,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     let connections = collect(&connection_tables, |table| {
         connection::read(table, &subsystem_names, problems)
     });
-    let output = output::read(&root, &subsystem_names, problems);
+    let output = output::read(&root, &subsystem_names, duration, problems);
     let run = read_run(&root, problems);
     let case_tables = sections(&root, "case", problems);
     Registry::collect("case", &case_tables, None, problems);

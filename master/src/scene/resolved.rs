@@ -335,10 +335,12 @@ pub struct Connection {
 }
 
 /// What is recorded.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Output {
-    /// Every how many macro steps, 1 or more; default 1.
+    /// Every how many macro steps, or samples, 1 or more; default 1.
     pub every: usize,
+    /// Time in s between samples; absent: results are those of macro points.
+    pub interval: Option<f64>,
     /// Outputs as `subsystem.output`, beyond those that the coupling needs.
     pub variables: Option<Vec<String>>,
     /// What the picture of a run shows; none: motion, residuals and multipliers.

@@ -188,12 +188,13 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
     let corrections = &statistics.corrections;
     writeln!(
         text,
-        "    predictor {}, columns {} (in {} macro steps), passes {}, corrector {}",
+        "    predictor {}, columns {} (in {} macro steps), passes {}, corrector {}, samples {}",
         causes.predictor,
         causes.columns,
         corrections.steps_with_columns,
         causes.passes,
-        causes.corrector
+        causes.corrector,
+        causes.samples
     )?;
     if causes.sum() != statistics.integrations {
         writeln!(

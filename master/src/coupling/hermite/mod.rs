@@ -300,6 +300,12 @@ impl Corrector for Hermite {
         self.read_starts();
     }
 
+    fn multipliers_at(&self, tau: f64, _length: f64, multipliers: &mut [f64]) {
+        for (row, multiplier) in multipliers.iter_mut().enumerate() {
+            *multiplier = self.before.value(row, tau);
+        }
+    }
+
     fn judge(&mut self, parts: &Parts) -> Verdict {
         if self.variant.starts_anew() {
             self.linearise_start(parts);
