@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use linchpin::connect::Place;
-use linchpin_master::scene::{Scene, load};
+use linchpin_master::scene::{Scene, is_study, load};
 use linchpin_tests::runs::{Trajectory, run};
 
 /// Macro steps of a run: enough for the columns to grow old, few enough for a test.
@@ -24,9 +24,7 @@ fn shipped(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.unwrap().path();
         if path.is_dir() {
             shipped(&path, found);
-        } else if path.extension().is_some_and(|ending| ending == "toml")
-            && !path.ends_with("scenes/report.toml")
-        {
+        } else if path.extension().is_some_and(|ending| ending == "toml") && !is_study(&path) {
             found.push(path);
         }
     }
