@@ -73,3 +73,31 @@ fn shortened_steps_keep_the_order() {
         assert!(error < 9.0e2 * h.powi(5), "{h}: {error:e}");
     }
 }
+
+/// The oscillator's derivatives are those of its equation: no perturbed integration, and the same motion up to the rounding of
+/// the differences.
+#[test]
+fn directional_derivatives_replace_perturbed_steps() {
+    for coupling in [
+        "method=hermite jacobian=every-step",
+        "method=weighted index=1 a=2 b=2.6 degree=2",
+    ] {
+        let with = |increment: &str| {
+            let coupling = format!("{coupling} macro_step=5e-3 increment={increment}");
+            run(
+                &oscillator_with(&coupling, &["scene.t_end=1"]),
+                Place::InProcess,
+            )
+        };
+        let (differences, derivatives) = (with("automatic"), with("derivatives"));
+        assert!(differences.statistics.integrations_by_cause.columns > 0);
+        let causes = derivatives.statistics.integrations_by_cause;
+        assert_eq!(causes.columns, 0, "{coupling}: {causes:?}");
+        assert_eq!(causes.sum(), derivatives.integrations, "{coupling}");
+        let pairs = derivatives.column("mass1.x");
+        let pairs = pairs.iter().zip(differences.column("mass1.x"));
+        for (one, other) in pairs {
+            assert!((one - other).abs() < 1e-9, "{coupling}: {one} {other}");
+        }
+    }
+}

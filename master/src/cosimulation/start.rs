@@ -85,6 +85,7 @@ impl CoSimulation {
             let model = &models[number];
             let capabilities = model.capabilities.unwrap_or_default();
             subsystem.repeats_steps = capabilities.repeats_step_sequence;
+            subsystem.offers_derivatives = capabilities.directional_derivatives;
             if let Err(error) = subsystem.initialize(requests[number].clone()) {
                 refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
             }

@@ -13,6 +13,7 @@ use linchpin_proto::version::PROTOCOL;
 use crate::connection::{Connection, LastWords};
 use crate::error::RunError;
 use crate::results::{Cause, Integrations};
+use crate::scene::Increment;
 use crate::time::MacroStep;
 
 /// How far a look-ahead goes.
@@ -46,6 +47,8 @@ pub struct Subsystem {
     pub(crate) tolerance: Option<f64>,
     /// Whether its perturbed steps repeat the internal steps of the step that they are compared with.
     pub(crate) repeats_steps: bool,
+    /// Whether it offers directional derivatives.
+    pub(crate) offers_derivatives: bool,
     /// What the solver did so far.
     pub(crate) work: v1::Work,
     /// What it was asked for so far.
@@ -72,6 +75,7 @@ impl Subsystem {
             outputs: Vec::new(),
             tolerance: None,
             repeats_steps: false,
+            offers_derivatives: false,
             work: v1::Work::default(),
             asked: Integrations::default(),
             looks_ahead_for: Cause::Predictor,
@@ -87,6 +91,11 @@ impl Subsystem {
     /// Whether the coupling reads outputs of it. Otherwise it is never asked to look ahead.
     pub(crate) fn is_read(&self) -> bool {
         self.coupling_outputs > 0
+    }
+
+    /// Whether columns are asked of it as directional derivatives.
+    pub(crate) fn gives_derivatives(&self, rule: Increment) -> bool {
+        self.offers_derivatives && rule == Increment::Derivatives
     }
 
     /// Size of the errors in a step and in a perturbed one that do not cancel in their difference, if it is more than rounding.
@@ -320,6 +329,24 @@ impl Subsystem {
         place: usize,
     ) -> &mut v1::Signal {
         signal_of(&mut self.look(ahead).perturbed, perturbed, place)
+    }
+
+    /// Direction number `direction` in a look-ahead that was prepared, of input `place`.
+    pub(crate) fn direction_signal(
+        &mut self,
+        ahead: Ahead,
+        direction: usize,
+        place: usize,
+    ) -> &mut v1::Signal {
+        signal_of(&mut self.look(ahead).directions, direction, place)
+    }
+
+    /// Directional derivatives of the coupling outputs of the last look-ahead.
+    pub(crate) fn derivatives(&self, ahead: Ahead) -> &[v1::Outputs] {
+        match ahead {
+            Ahead::Step => &self.reply.derivatives,
+            Ahead::Now => &self.reply.evaluated_derivatives,
+        }
     }
 
     /// Coupling outputs of the last look-ahead, and those of its perturbed signals.

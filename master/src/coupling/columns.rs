@@ -105,8 +105,15 @@ impl Columns {
             let end = input.value(look.ends, look.raised.attitudes());
             let length = look.raised.length();
             over.curves = look.raised;
+            let gives_derivatives = subsystem.gives_derivatives(self.rule);
             for (raised, column) in self.columns[columns.clone()].iter_mut().enumerate() {
-                if let Some(place) = column.place {
+                let Some(place) = column.place else {
+                    continue;
+                };
+                if gives_derivatives {
+                    let signal = subsystem.direction_signal(self.ahead, place, input.place);
+                    input.direction(&mut over, raised, signal);
+                } else {
                     let audible = subsystem.noise().map(|noise| column.audible(length, noise));
                     column.choose_increment(self.rule, end, audible);
                     let signal = subsystem.perturbed_signal(self.ahead, place, input.place);
@@ -120,8 +127,13 @@ impl Columns {
         for (subsystem, &columns) in parts.subsystems.iter_mut().zip(&self.of_subsystem) {
             if subsystem.is_read() {
                 let columns = if self.are_fresh { columns } else { 0 };
+                let (perturbed, directions) = match subsystem.gives_derivatives(self.rule) {
+                    true => (0, columns),
+                    false => (columns, 0),
+                };
                 let look = subsystem.look(self.ahead);
-                look.perturbed.resize_with(columns, Default::default);
+                look.perturbed.resize_with(perturbed, Default::default);
+                look.directions.resize_with(directions, Default::default);
             }
         }
     }
@@ -155,10 +167,17 @@ impl Columns {
             return self.carriage.carry(&parts.layout, looked, columns, own);
         }
         for (input, columns) in parts.layout.inputs.iter().zip(&self.of_input) {
-            let (predicted, perturbed) = parts.subsystems[input.subsystem].looked(self.ahead);
+            let subsystem = &parts.subsystems[input.subsystem];
+            let (predicted, perturbed) = subsystem.looked(self.ahead);
             for column in &mut self.columns[columns.clone()] {
                 if let Some(place) = column.place {
-                    column.difference(predicted, &perturbed[place].values);
+                    match subsystem.gives_derivatives(self.rule) {
+                        true => {
+                            let derivatives = &subsystem.derivatives(self.ahead)[place].values;
+                            column.derivatives.clone_from(derivatives);
+                        }
+                        false => column.difference(predicted, &perturbed[place].values),
+                    }
                     column.response = column.largest(&self.positions[input.subsystem]);
                 }
             }
@@ -228,10 +247,10 @@ impl Column {
         let scale = input.abs().max(1.0);
         self.increment = match rule {
             Increment::Relative(epsilon) => epsilon * scale,
-            Increment::Automatic if self.is_load => {
+            Increment::Automatic | Increment::Derivatives if self.is_load => {
                 (AUTOMATIC * scale).max(audible.unwrap_or_default())
             }
-            Increment::Automatic => AUTOMATIC_EXCHANGED * scale,
+            Increment::Automatic | Increment::Derivatives => AUTOMATIC_EXCHANGED * scale,
         };
     }
 

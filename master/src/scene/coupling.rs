@@ -32,6 +32,12 @@ const COMMON: [&str; 9] = [
     "increment",
 ];
 
+/// Increments that are not given as a number.
+const INCREMENTS: [(&str, Increment); 2] = [
+    ("automatic", Increment::Automatic),
+    ("derivatives", Increment::Derivatives),
+];
+
 /// Who may evaluate loads whose direction turns.
 const LOADS: [(&str, Loads); 3] = [
     ("automatic", Loads::Automatic),
@@ -266,7 +272,7 @@ fn read_iterations(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
 
 fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Increment> {
     match &field.node.value {
-        Value::Text(_) => field.choice(&[("automatic", Increment::Automatic)], problems),
+        Value::Text(_) => field.choice(&INCREMENTS, problems),
         _ => field.number(&POSITIVE, problems).map(Increment::Relative),
     }
 }

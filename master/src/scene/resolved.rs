@@ -199,6 +199,8 @@ impl Index {
 pub enum Increment {
     /// Chosen so that the response stands well above the tolerance that the worker reports.
     Automatic,
+    /// None where a worker offers directional derivatives; otherwise as automatic.
+    Derivatives,
     /// eps max(1, |u|) for the coupling variable u; eps greater than 0 (Schweizer & Lu, Sect. 3.3).
     Relative(f64),
 }

@@ -152,6 +152,15 @@ impl DrivenInput {
         }
     }
 
+    /// The direction in which [`DrivenInput::raised_signal`] raises the signal: shape number `raised` of its variables.
+    pub fn direction(&self, over: &mut Over<'_>, raised: usize, signal: &mut Signal) {
+        self.signal(over, signal);
+        let leading = Unknowns::leading(self);
+        for (value, &tau) in signal.values.iter_mut().zip(&signal.nodes) {
+            *value = over.curves.shape(leading, raised, tau);
+        }
+    }
+
     /// The signal that is higher by `increment` times shape number `raised` of its variables.
     pub fn raised_signal(
         &self,
