@@ -17,6 +17,18 @@ fn index_3_is_stable_for_all_pairs() {
     );
 }
 
+/// Whatever masses, springs, dampers and H are, and to 1e-9: the default variant on all pairs of the documentation.
+#[test]
+fn hermite_coupling_is_stable_for_all_pairs() {
+    for (variant, pairs) in [("apv", 10_000), ("c0pv", 1000), ("av", 1000)] {
+        let tally = Tally::of(&format!("method=hermite variant={variant}"), SEED, pairs);
+        assert!(
+            tally.unstable.is_empty() && tally.out_of_reach.is_empty(),
+            "{variant}: {tally:?}"
+        );
+    }
+}
+
 /// S1's a = b = 1 with k = 2: the radius 1.13 for small H whatever the pair; what is far out of it is held by its own springs and
 /// dampers.
 #[test]
