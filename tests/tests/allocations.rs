@@ -27,7 +27,7 @@ thread_local! {
 struct Counting;
 
 // SAFETY: every call is passed on unchanged to the system's allocator.
-#[allow(unsafe_code)] // An allocator cannot be written without.
+#[allow(unsafe_code, reason = "an allocator cannot be written without")]
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         ALLOCATIONS.set(ALLOCATIONS.get() + 1);

@@ -121,8 +121,10 @@ impl Launcher {
 
 /// Asks the kernel to end the worker with its master, however the master ends.
 #[cfg(target_os = "linux")]
-// `pre_exec` is unsafe because its closure runs between fork and exec; this one makes a single system call.
-#[allow(unsafe_code)]
+#[allow(
+    unsafe_code,
+    reason = "`pre_exec` is unsafe because its closure runs between fork and exec; this one makes a single system call"
+)]
 fn die_with_parent(command: &mut Command) {
     let set_signal = || {
         rustix::process::set_parent_process_death_signal(Some(Signal::KILL))

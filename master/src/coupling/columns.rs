@@ -142,15 +142,7 @@ impl Columns {
     pub fn keep_responses(&mut self, length: f64) {
         for column in &mut self.columns {
             let value = column.response;
-            let newest = Response { value, length };
-            column.responses = [newest, column.responses[0]];
-        }
-    }
-
-    /// Takes the last [`Columns::keep_responses`] back.
-    pub fn forget_responses(&mut self) {
-        for column in &mut self.columns {
-            column.responses[0] = column.responses[1];
+            column.kept = Response { value, length };
         }
     }
 
@@ -199,8 +191,8 @@ pub struct Column {
     pub place: Option<usize>,
     /// Largest response of a position.
     response: f64,
-    /// The same in the last two steps that were done, newest first.
-    responses: [Response; 2],
+    /// The same in the last step that was done.
+    kept: Response,
 }
 
 /// Response of an output to a unit of an input over a step.
@@ -266,7 +258,7 @@ impl Column {
     /// The increment under which the last known response stands a thousand times above `noise` over a step of this length; 0
     /// if nothing responds.
     fn audible(&self, length: f64, noise: f64) -> f64 {
-        let response = self.responses[0].over(length);
+        let response = self.kept.over(length);
         if response > 0.0 {
             ABOVE_NOISE * noise / response
         } else {
@@ -294,13 +286,13 @@ mod tests {
             // A force across the first coordinate, along the second; behind them a velocity.
             derivatives: vec![-3e-13, -5e-7, 1e-3],
             is_load: true,
-            responses: [Response {
+            kept: Response {
                 value: 5e-7,
                 length: 1e-3,
-            }; 2],
+            },
             ..Column::default()
         };
-        column.responses[0].value = column.largest(&[0, 1]);
+        column.kept.value = column.largest(&[0, 1]);
         let audible = column.audible(1e-3, 1e-8);
         assert!((audible * 5e-7 / 1e-8 - 1e3).abs() < 1e-9);
         let over_a_longer_step = column.audible(2e-3, 1e-8);

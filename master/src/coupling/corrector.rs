@@ -9,8 +9,7 @@ use crate::time::MacroStep;
 
 /// A method that predicts the coupling variables over a macro step and corrects them from what the workers answer.
 ///
-/// It stands at the present macro point `T_N`, from where it predicts; [`Corrector::move_on`] takes it to `T_{N+1}`, and
-/// [`Corrector::move_back`] takes that back, bit by bit.
+/// It stands at the present macro point `T_N`, from where it predicts; [`Corrector::move_on`] takes it to `T_{N+1}`.
 pub(crate) trait Corrector: Send {
     /// Multipliers at the present macro point.
     fn multipliers(&self) -> &[f64];
@@ -39,10 +38,6 @@ pub(crate) trait Corrector: Send {
 
     /// Moves on to the end of `step`.
     fn move_on(&mut self, step: MacroStep);
-
-    /// Takes the last [`Corrector::move_on`] back.
-    #[expect(dead_code, reason = "for steps that are repeated")]
-    fn move_back(&mut self);
 
     /// Writes the multipliers at `tau` after the start of the last step, `length` long, that [`Corrector::move_on`] took.
     fn multipliers_at(&self, tau: f64, length: f64, multipliers: &mut [f64]);

@@ -237,11 +237,6 @@ impl Corrector for SemiImplicit {
         self.columns.keep_responses(step.length);
     }
 
-    fn move_back(&mut self) {
-        std::mem::swap(&mut self.history, &mut self.before);
-        self.columns.forget_responses();
-    }
-
     fn multipliers_at(&self, tau: f64, length: f64, multipliers: &mut [f64]) {
         let curve = Curve::Interpolated(&self.corrected);
         for (row, multiplier) in multipliers.iter_mut().enumerate() {

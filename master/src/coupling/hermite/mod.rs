@@ -23,6 +23,7 @@
 //! * `estimate`: the error of a step;
 //! * `stack`: the equations of all unknowns.
 
+mod again;
 mod arcs;
 mod estimate;
 mod held;
@@ -36,7 +37,7 @@ use super::condition::{SingularRow, check_finite};
 use super::corrector::{Again, Corrector};
 use super::error_estimate::{ErrorScales, Estimate};
 use super::layout::Over;
-use super::measure::{Change, Measure};
+use super::measure::Measure;
 use super::position_error::PositionErrors;
 use super::promise::Promise;
 use super::solve::{LinearSolver, SingularColumn};
@@ -159,6 +160,20 @@ impl Hermite {
         }
     }
 
+    /// Fills in the look-ahead over `step` with the curves at hand.
+    fn request_look(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
+        let look = Look {
+            predicted: &self.arcs,
+            raised: &self.arcs,
+            ends: self.sample.ends(),
+            with_columns,
+        };
+        self.end.columns.request(parts, look, &mut self.memory);
+        if with_columns {
+            self.columns_of = step.length;
+        }
+    }
+
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
         parts.prepare_evaluation(t);
         let held = Held {
@@ -226,18 +241,9 @@ impl Corrector for Hermite {
         self.sample.take(&self.arcs);
         check_finite(self.sample.ends(), parts, step)?;
         parts.prepare_prediction(step.start, step.length);
-        let look = Look {
-            predicted: &self.arcs,
-            raised: &self.arcs,
-            ends: self.sample.ends(),
-            with_columns,
-        };
-        self.end.columns.request(parts, look, &mut self.memory);
         self.is_first = true;
         self.promise.forget();
-        if with_columns {
-            self.columns_of = step.length;
-        }
+        self.request_look(parts, step, with_columns);
         if self.variant.starts_anew() && with_columns {
             // Also of a step that is repeated from a point that was linearised about before.
             self.start_is_known = false;
@@ -292,14 +298,6 @@ impl Corrector for Hermite {
         self.read_starts();
     }
 
-    fn move_back(&mut self) {
-        self.start.columns.forget_responses();
-        self.end.columns.forget_responses();
-        std::mem::swap(&mut self.arcs, &mut self.before);
-        self.sample.take(&self.arcs);
-        self.read_starts();
-    }
-
     fn multipliers_at(&self, tau: f64, _length: f64, multipliers: &mut [f64]) {
         for (row, multiplier) in multipliers.iter_mut().enumerate() {
             *multiplier = self.before.value(row, tau);
@@ -316,49 +314,6 @@ impl Corrector for Hermite {
 
     fn again(&mut self) -> Option<&mut dyn Again> {
         Some(self)
-    }
-}
-
-impl Again for Hermite {
-    fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
-        self.promise.remember(&self.end.system, &self.change);
-        self.is_first = false;
-        parts.prepare_pass(step);
-        parts.forgo_evaluation();
-        let look = Look {
-            predicted: &self.arcs,
-            raised: &self.arcs,
-            ends: self.sample.ends(),
-            with_columns,
-        };
-        self.end.columns.request(parts, look, &mut self.memory);
-        if with_columns {
-            self.columns_of = step.length;
-        }
-    }
-
-    fn last_change(&self) -> Change {
-        self.measure.of(&self.changes, self.sample.ends())
-    }
-
-    fn has_columns(&self, step: MacroStep) -> bool {
-        self.columns_of == step.length
-    }
-
-    /// The solution for the conditions at the outputs after the advance, with the matrix of the correction.
-    fn remainder(&mut self, parts: &Parts) -> f64 {
-        let step = self.before.length();
-        self.settled.take(&self.before);
-        let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
-        let point = self.settled.point(step, self.before.attitudes());
-        let system = &mut self.end.system;
-        system.assemble_residuals(&parts.layout, outputs, point);
-        system.drop_rounding(&parts.layout, point);
-        self.stack.assemble_end(system, step);
-        let remaining = self.stack.rhs();
-        self.solver.solve_again(remaining);
-        largest_changes(system.unknowns(), remaining, &mut self.changes);
-        self.measure.of(&self.changes, self.settled.ends()).of_usual
     }
 }
 

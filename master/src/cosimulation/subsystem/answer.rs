@@ -1,0 +1,167 @@
+//! The answer of a worker: whole, finite, and what the coupling reads of it.
+
+use linchpin_proto::v1;
+
+use super::{Ahead, Subsystem};
+use crate::error::RunError;
+use crate::time::MacroStep;
+
+impl Subsystem {
+    /// Coupling outputs at the present macro point.
+    pub(crate) fn coupling_values(&self) -> &[f64] {
+        &self.outputs[..self.coupling_outputs]
+    }
+
+    /// Coupling outputs of the last prediction.
+    pub(crate) fn predicted(&self) -> &[f64] {
+        values(self.reply.predicted.as_ref())
+    }
+
+    /// Outputs at a sample inside the last advance, in the order of the names.
+    pub(crate) fn sample(&self, place: usize) -> &[f64] {
+        let sample = self.reply.samples.get(place);
+        sample.map_or(&[], |outputs| &outputs.values)
+    }
+
+    /// Directional derivatives of the coupling outputs of the last look-ahead.
+    pub(crate) fn derivatives(&self, ahead: Ahead) -> &[v1::Outputs] {
+        match ahead {
+            Ahead::Step => &self.reply.derivatives,
+            Ahead::Now => &self.reply.evaluated_derivatives,
+        }
+    }
+
+    /// Coupling outputs of the last look-ahead, and those of its perturbed signals.
+    pub(crate) fn looked(&self, ahead: Ahead) -> (&[f64], &[v1::Outputs]) {
+        let reply = &self.reply;
+        match ahead {
+            Ahead::Step => (self.predicted(), &reply.perturbed),
+            Ahead::Now => (values(reply.evaluated.as_ref()), &reply.evaluated_perturbed),
+        }
+    }
+
+    pub(super) fn take_advanced(&mut self, step: MacroStep) -> Result<(), RunError> {
+        let Some(advance) = &self.request.advance else {
+            return Ok(());
+        };
+        let samples = (&self.reply.samples[..], advance.samples.len());
+        self.check_each(
+            ["samples", "sampled outputs"],
+            samples,
+            &self.output_names,
+            step,
+        )?;
+        let advanced = values(self.reply.advanced.as_ref());
+        self.check("advanced outputs", advanced, &self.output_names, step)?;
+        self.outputs.clear();
+        self.outputs
+            .extend_from_slice(values(self.reply.advanced.as_ref()));
+        Ok(())
+    }
+
+    pub(super) fn check_looks_ahead(&self, step: MacroStep) -> Result<(), RunError> {
+        let names = &self.output_names[..self.coupling_outputs];
+        let reply = &self.reply;
+        if let Some(predict) = &self.request.predict {
+            self.check("predicted outputs", self.predicted(), names, step)?;
+            let perturbed = (&reply.perturbed[..], predict.perturbed.len());
+            self.check_each(
+                ["perturbed steps", "perturbed outputs"],
+                perturbed,
+                names,
+                step,
+            )?;
+            let derivatives = (&reply.derivatives[..], predict.directions.len());
+            self.check_each(
+                [
+                    "directional derivatives",
+                    "derivatives of predicted outputs",
+                ],
+                derivatives,
+                names,
+                step,
+            )?;
+        }
+        if let Some(evaluate) = &self.request.evaluate {
+            let evaluated = values(reply.evaluated.as_ref());
+            self.check("evaluated outputs", evaluated, names, step)?;
+            let perturbed = (&reply.evaluated_perturbed[..], evaluate.perturbed.len());
+            self.check_each(
+                ["perturbed evaluations", "perturbed outputs"],
+                perturbed,
+                names,
+                step,
+            )?;
+            let derivatives = (&reply.evaluated_derivatives[..], evaluate.directions.len());
+            self.check_each(
+                [
+                    "directional derivatives of an evaluation",
+                    "derivatives of evaluated outputs",
+                ],
+                derivatives,
+                names,
+                step,
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Checks that a list, which is called `list`, has as many entries as expected, and that each `entry` is whole and finite.
+    fn check_each(
+        &self,
+        [list, entry]: [&'static str; 2],
+        (found, expected): (&[v1::Outputs], usize),
+        names: &[String],
+        step: MacroStep,
+    ) -> Result<(), RunError> {
+        if found.len() != expected {
+            return Err(self.wrong_count(list, found.len(), expected, step));
+        }
+        for outputs in found {
+            self.check(entry, &outputs.values, names, step)?;
+        }
+        Ok(())
+    }
+
+    pub(super) fn check(
+        &self,
+        what: &'static str,
+        values: &[f64],
+        names: &[String],
+        step: MacroStep,
+    ) -> Result<(), RunError> {
+        if values.len() != names.len() {
+            return Err(self.wrong_count(what, values.len(), names.len(), step));
+        }
+        match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(place) => Err(RunError::NotFinite {
+                subsystem: self.name.clone(),
+                variable: names[place].clone(),
+                value: values[place],
+                t: step.start,
+                step: step.length,
+            }),
+        }
+    }
+
+    fn wrong_count(
+        &self,
+        what: &'static str,
+        found: usize,
+        expected: usize,
+        step: MacroStep,
+    ) -> RunError {
+        RunError::WrongCount {
+            subsystem: self.name.clone(),
+            what,
+            found,
+            expected,
+            t: step.start,
+        }
+    }
+}
+
+fn values(outputs: Option<&v1::Outputs>) -> &[f64] {
+    outputs.map_or(&[], |outputs| &outputs.values)
+}
