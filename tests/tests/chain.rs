@@ -63,7 +63,7 @@ fn start(scene: &Scene) -> CoSimulation {
 #[test]
 fn one_exchange_a_worker_and_macro_step_for_any_length() {
     for n in [2, 4, 8, 16, 32, 64] {
-        let mut simulation = start(&scene(n, &[]));
+        let mut simulation = start(&scene(n, &["coupling.jacobian=every-step"]));
         let exchanges = |simulation: &CoSimulation| -> Vec<u64> {
             let subsystems = simulation.statistics().subsystems;
             subsystems.iter().map(|own| own.exchanges).collect()

@@ -38,21 +38,21 @@ set = { "scene.t_end" = 0.3 }
 
 [[setting]]
 name = "weighted, k = 1"
-set = { "coupling.method" = "weighted", "coupling.degree" = 1 }
+set = { "coupling.method" = "weighted", "coupling.degree" = 1, "coupling.jacobian" = "every-step" }
 
 [[setting]]
 name = "index 2, k = 0"
 paper = true
-set = { "coupling.method" = "weighted", "coupling.a" = 1.0, "coupling.b" = 0.0, "coupling.degree" = 0, "coupling.exchanged_degree" = 0 }
+set = { "coupling.method" = "weighted", "coupling.a" = 1.0, "coupling.b" = 0.0, "coupling.degree" = 0, "coupling.exchanged_degree" = 0, "coupling.jacobian" = "every-step" }
 
 [[setting]]
 name = "index 3, k = 1"
-set = { "coupling.method" = "baumgarte", "coupling.beta" = 0.0, "coupling.gamma" = 0.0, "coupling.degree" = 1 }
+set = { "coupling.method" = "baumgarte", "coupling.beta" = 0.0, "coupling.gamma" = 0.0, "coupling.degree" = 1, "coupling.jacobian" = "every-step" }
 
 [[setting]]
 name = "unequal degrees"
 scenes = ["slider-crank"]
-set = { "coupling.method" = "weighted", "coupling.loads" = "master", "coupling.degree" = 1 }
+set = { "coupling.method" = "weighted", "coupling.loads" = "master", "coupling.degree" = 1, "coupling.jacobian" = "every-step" }
 "#;
 
 fn run(depth: Depth) -> Report {
@@ -191,8 +191,8 @@ fn the_shipped_study_is_sound() {
 fn settings_that_do_not_fit_a_scene_are_refused() {
     for (old, new, words) in [
         (
-            "\"coupling.degree\" = 1 }\n\n[[setting]]\nname = \"index 2",
-            "\"coupling.degre\" = 1 }\n\n[[setting]]\nname = \"index 2",
+            "\"weighted\", \"coupling.degree\" = 1",
+            "\"weighted\", \"coupling.degre\" = 1",
             &["study.toml:24:41", "`degre`", "did you mean `degree`?"][..],
         ),
         (

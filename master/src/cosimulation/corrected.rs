@@ -2,11 +2,10 @@
 
 use std::time::{Duration, Instant};
 
-use super::renewal::Renewal;
+use super::renewal::{Renewal, last_change};
 use super::step_size::{Judgement, StepSize};
 use super::{Outcome, Parts, exchange};
 use crate::coupling::corrector::Corrector;
-use crate::coupling::measure::Change;
 use crate::error::RunError;
 use crate::time::{MacroStep, TimePlan};
 
@@ -56,7 +55,7 @@ fn correct_again(
     outcome: &mut Outcome,
 ) -> Result<(), RunError> {
     let step = outcome.step;
-    renewal.begin(last_change(method));
+    renewal.begin(method);
     while let Some(with_columns) = renewal.next_pass() {
         let Some(again) = method.again() else { break };
         again.request_pass(parts, step, with_columns);
@@ -65,11 +64,6 @@ fn correct_again(
         renewal.note_pass(last_change(method), with_columns);
     }
     renewal.refuse(parts, step)
-}
-
-fn last_change(method: &mut dyn Corrector) -> Change {
-    let again = method.again();
-    again.map_or_else(Change::default, |again| again.last_change())
 }
 
 /// Corrects, and gives the time that it took.
@@ -101,19 +95,20 @@ fn repeat_until_accepted(
             method.restart();
         }
         outcome.step = plan.shorten(length);
-        renewal.renew();
-        look_ahead(method, parts, outcome.step)?;
+        let with_columns = renewal.wants_columns(method, outcome.step);
+        look_ahead(method, parts, outcome.step, with_columns)?;
         outcome.solving += correct(method, parts, outcome.step)?;
     }
 }
 
-/// A look-ahead from the present macro point, with new columns and no advance before it.
+/// A look-ahead from the present macro point, with no advance before it.
 pub(super) fn look_ahead(
     method: &mut dyn Corrector,
     parts: &mut Parts,
     step: MacroStep,
+    with_columns: bool,
 ) -> Result<(), RunError> {
     parts.forgo_advance();
-    method.request_prediction(parts, step, true)?;
+    method.request_prediction(parts, step, with_columns)?;
     exchange(&mut parts.subsystems, step)
 }

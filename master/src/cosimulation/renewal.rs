@@ -17,6 +17,12 @@ const SLOW: f64 = 0.3;
 /// Rate of convergence above which the step itself is corrected with new columns.
 const TOO_SLOW: f64 = 0.5;
 
+/// Noise is what stands so many times above what convergence explains; what stands so many times above noise is none.
+const ABOVE_NOISE: f64 = 2.0;
+
+/// Share that noise keeps from step to step where nothing is heard of it.
+const FADING: f64 = 0.99;
+
 /// Most passes that columns of an earlier step get.
 const MOST_PASSES: u32 = 8;
 
@@ -28,13 +34,19 @@ const MOST_PASSES: u32 = 8;
 pub(crate) struct Renewal {
     rule: Jacobian,
     iterations: Option<Iterations>,
-    /// Rate of convergence with the columns at hand; `None` until a step has shown it.
+    /// Share that a correction misses with the columns at hand; `None` until a step has shown it.
     rate: Option<f64>,
+    /// Share that the first correction of a step has left, which takes into account what it was foreseen to miss.
+    left_by_first: Option<f64>,
     /// Whether the columns at hand belong to the look-ahead over the present step.
     are_fresh: bool,
     /// Whether the last look-ahead, over the following step, was asked for columns.
     come_next: bool,
+    /// Size of the first correction of the step.
+    first: f64,
     last: Change,
+    /// What passes do not take away: rounding and the errors of the solvers.
+    noise: f64,
     passes: Passes,
 }
 
@@ -58,8 +70,11 @@ impl Renewal {
             rule,
             iterations,
             rate: None,
+            left_by_first: None,
             are_fresh: true,
             come_next: true,
+            noise: 0.0,
+            first: 0.0,
             last: Change::default(),
             passes: Passes::default(),
         }
@@ -75,22 +90,20 @@ impl Renewal {
         wanted
     }
 
-    /// The step is looked ahead over afresh, with new columns.
-    pub fn renew(&mut self) {
-        self.come_next = true;
-    }
-
-    /// After the first correction of a step.
-    pub fn begin(&mut self, change: Change) {
+    /// After the first correction of a step that is accepted.
+    pub fn begin(&mut self, method: &mut dyn Corrector) {
+        let continues = method.again().is_some_and(|again| again.accept());
+        let change = last_change(method);
         self.are_fresh = self.come_next;
         self.last = change;
         self.passes = Passes {
             with_columns: self.are_fresh,
             ..Passes::default()
         };
-        if self.are_fresh {
-            self.rate = None;
+        if !continues {
+            (self.rate, self.left_by_first) = (None, None);
         }
+        self.first = change.of_usual;
     }
 
     /// Whether the step has to be corrected once more, and then whether with new columns.
@@ -111,19 +124,30 @@ impl Renewal {
         if self.rule == Jacobian::EveryStep || self.are_fresh || self.last.of_usual == 0.0 {
             return false;
         }
-        self.rate
-            .is_none_or(|rate| rate * self.last.of_usual > MOST_LEFT)
+        let left = match self.passes.count {
+            0 => self.left_by_first,
+            _ => self.rate,
+        };
+        let most = MOST_LEFT.max(ABOVE_NOISE * self.noise);
+        left.is_none_or(|share| share * self.last.of_usual > most)
     }
 
     /// After another correction.
     pub fn note_pass(&mut self, change: Change, with_columns: bool) {
         let rate = rate(change.of_usual, self.last.of_usual);
+        if self.passes.count == 0 {
+            self.left_by_first = Some(rate);
+        }
         self.passes.count += 1;
         self.passes.rate = Some(rate);
         self.passes.with_columns |= with_columns;
         self.last = change;
         self.are_fresh |= with_columns;
-        self.rate = (!with_columns).then_some(rate);
+        if with_columns {
+            (self.rate, self.left_by_first) = (None, None);
+        } else {
+            self.rate = Some(self.rate.unwrap_or_default().max(rate));
+        }
     }
 
     /// Refuses a step that has not converged, if the scene says so.
@@ -147,17 +171,37 @@ impl Renewal {
         }
     }
 
-    /// After the step: an advance shows the rate without a pass.
+    /// After the step: an advance shows what was missed without a pass.
     pub fn finish(&mut self, method: &mut dyn Corrector, parts: &Parts) -> Passes {
         let is_old = self.rule != Jacobian::EveryStep && !self.are_fresh;
         if let Some(again) = method.again()
             && is_old
-            && self.passes.count == 0
         {
-            self.rate = Some(rate(again.remainder(parts), self.last.of_usual));
+            let missed = again.learn(parts);
+            self.listen(missed.by_last);
+            if self.passes.count == 0 {
+                self.left_by_first = Some(rate(missed.by_last, self.first));
+            }
+            self.rate = Some(rate(missed.by_first, self.first));
         }
         self.passes
     }
+
+    /// A pass leaves a share of what it has changed; what is left beyond that no further pass would take away.
+    fn listen(&mut self, left: f64) {
+        let expected = self.rate.unwrap_or_default() * self.last.of_usual;
+        if self.passes.count > 0 && left > ABOVE_NOISE * expected {
+            self.noise = self.noise.max(left);
+        } else {
+            self.noise *= FADING;
+        }
+    }
+}
+
+/// Size of the last correction.
+pub(super) fn last_change(method: &mut dyn Corrector) -> Change {
+    let again = method.again();
+    again.map_or_else(Change::default, |again| again.last_change())
 }
 
 fn rate(size: f64, before: f64) -> f64 {

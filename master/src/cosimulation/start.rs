@@ -372,7 +372,7 @@ fn begin_corrected(
     parts: &mut Parts,
     plan: &TimePlan,
 ) -> Result<Scheme, RunError> {
-    look_ahead(&mut *method, parts, first_step(plan))?;
+    look_ahead(&mut *method, parts, first_step(plan), true)?;
     Ok(Scheme::Corrected(method))
 }
 

@@ -1,4 +1,4 @@
-//! Columns of an earlier macro step, carried along with the bodies.
+//! Columns of earlier macro steps, carried along with the bodies.
 
 use std::ops::Range;
 
@@ -8,25 +8,98 @@ use super::columns::Column;
 use super::layout::{Frame, Layout};
 use crate::signal::attitude::{small_rotation, unit_quaternion};
 
-/// The columns as they were measured, and the attitudes that the bodies had then.
+/// The columns as they were measured over look-aheads of one or several shapes, and the attitudes that the bodies had then.
 ///
 /// The response of a rigid body to a load is constant in the axes of the body up to what its motion changes within one
 /// macro step: for a free body with mass `m`, inertia `J` and a point `r` the acceleration of the point under a force there is
 /// `f/m - r x J^-1 (r x f)`, and all of `r`, `J`, `f` turn with the body. So a column that was measured at the attitude `A` holds at the
 /// attitude `B` with every vector turned by `R = B A^T`: `C' = R C R^T`. Where several bodies move against each other this is
 /// an approximation; the rate of convergence shows how good it is.
+///
+/// What is measured belongs to a macro step that may yet be rejected; only [`Carriage::settle`] makes it one of those that stay.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Carriage {
-    measured: Vec<Vec<f64>>,
+    /// Those that stay, the last used first.
+    settled: Vec<Measured>,
+    /// Those of the present macro step, if `is_pending`.
+    pending: Measured,
+    is_pending: bool,
+    /// The shape in use.
+    shape: Shape,
+}
+
+/// To what columns belong: the length of a look-ahead in s, and the past nodes of the polynomials that were raised, if they have any.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Shape {
+    length: f64,
+    nodes: Vec<f64>,
+}
+
+impl Shape {
+    fn set(&mut self, length: f64, nodes: &[f64]) {
+        self.length = length;
+        self.nodes.clear();
+        self.nodes.extend_from_slice(nodes);
+    }
+
+    fn is(&self, length: f64, nodes: &[f64]) -> bool {
+        self.length == length && self.nodes == nodes
+    }
+}
+
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Measured {
+    shape: Shape,
+    columns: Vec<Vec<f64>>,
     attitudes: Vec<UnitQuaternion<f64>>,
 }
+
+/// Most shapes whose columns stay: macro steps that vary come back to the same lengths.
+const MOST_SHAPES: usize = 8;
 
 impl Carriage {
     /// For the frames of `layout`.
     pub fn new(layout: &Layout) -> Self {
         Self {
-            measured: Vec::new(),
-            attitudes: vec![UnitQuaternion::identity(); layout.frames.len()],
+            settled: Vec::with_capacity(MOST_SHAPES),
+            pending: Measured {
+                attitudes: vec![UnitQuaternion::identity(); layout.frames.len()],
+                ..Measured::default()
+            },
+            is_pending: false,
+            shape: Shape::default(),
+        }
+    }
+
+    /// Whether there are columns of this shape.
+    pub fn has(&self, length: f64, nodes: &[f64]) -> bool {
+        self.settled.iter().any(|one| one.shape.is(length, nodes))
+    }
+
+    /// Begins with the first look-ahead over a macro step, or over a repeated one: what was measured for a step that is not taken is
+    /// dropped. Gives whether the macro step before had this shape.
+    pub fn begin(&mut self, length: f64, nodes: &[f64]) -> bool {
+        self.is_pending = false;
+        self.shape.set(length, nodes);
+        self.settled
+            .first()
+            .is_some_and(|last| last.shape == self.shape)
+    }
+
+    /// The macro step is done: its columns stay.
+    pub fn settle(&mut self) {
+        let place = self.settled.iter().position(|one| one.shape == self.shape);
+        if std::mem::take(&mut self.is_pending) {
+            let place = place.unwrap_or_else(|| {
+                if self.settled.len() < MOST_SHAPES {
+                    self.settled.push(self.pending.clone());
+                }
+                self.settled.len() - 1
+            });
+            std::mem::swap(&mut self.settled[place], &mut self.pending);
+            self.settled[..=place].rotate_right(1);
+        } else if let Some(place) = place {
+            self.settled[..=place].rotate_right(1);
         }
     }
 
@@ -37,19 +110,19 @@ impl Carriage {
         outputs: impl Fn(usize) -> &'a [f64],
         columns: &[Column],
     ) {
-        if layout.frames.is_empty() {
-            return;
-        }
-        self.measured.resize_with(columns.len(), Vec::new);
-        for (measured, column) in self.measured.iter_mut().zip(columns) {
+        let pending = &mut self.pending;
+        pending.shape.set(self.shape.length, &self.shape.nodes);
+        pending.columns.resize_with(columns.len(), Vec::new);
+        for (measured, column) in pending.columns.iter_mut().zip(columns) {
             measured.clone_from(&column.derivatives);
         }
-        for (attitude, frame) in self.attitudes.iter_mut().zip(&layout.frames) {
+        for (attitude, frame) in pending.attitudes.iter_mut().zip(&layout.frames) {
             *attitude = attitude_of(frame, outputs(frame.subsystem));
         }
+        self.is_pending = true;
     }
 
-    /// Turns the columns to the attitudes of these coupling outputs; `of_input` are the columns of each input.
+    /// Turns the columns of the shape in use to the attitudes of these coupling outputs; `of_input` are the columns of each input.
     pub fn carry<'a>(
         &self,
         layout: &Layout,
@@ -57,10 +130,17 @@ impl Carriage {
         columns: &mut [Column],
         of_input: &[Range<usize>],
     ) {
-        for (measured, column) in self.measured.iter().zip(&mut *columns) {
+        let source = match self.is_pending {
+            true => Some(&self.pending),
+            false => self.settled.iter().find(|one| one.shape == self.shape),
+        };
+        let Some(source) = source else {
+            return;
+        };
+        for (measured, column) in source.columns.iter().zip(&mut *columns) {
             column.derivatives.clone_from(measured);
         }
-        for (before, frame) in self.attitudes.iter().zip(&layout.frames) {
+        for (before, frame) in source.attitudes.iter().zip(&layout.frames) {
             let now = attitude_of(frame, outputs(frame.subsystem));
             let turn = now * before.inverse();
             for own in &of_input[layout.input_range(frame.subsystem)] {

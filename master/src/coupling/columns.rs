@@ -138,8 +138,20 @@ impl Columns {
         }
     }
 
-    /// The step of this length is done: its responses are what increments are chosen by.
-    pub fn keep_responses(&mut self, length: f64) {
+    /// Whether there are columns of an earlier macro step for a look-ahead of this length with these past nodes.
+    pub fn has(&self, length: f64, nodes: &[f64]) -> bool {
+        self.carriage.has(length, nodes)
+    }
+
+    /// Begins with the first look-ahead over a macro step, or over a repeated one, of this length and with these past nodes. Gives
+    /// whether the macro step before was such a one.
+    pub fn begin(&mut self, length: f64, nodes: &[f64]) -> bool {
+        self.carriage.begin(length, nodes)
+    }
+
+    /// The step of this length is done: its columns may serve later ones, and its responses are what increments are chosen by.
+    pub fn settle(&mut self, length: f64) {
+        self.carriage.settle();
         for column in &mut self.columns {
             let value = column.response;
             column.kept = Response { value, length };

@@ -57,13 +57,26 @@ pub(crate) trait Again {
     /// ones, and perturbed ones if `with_columns`: [`Corrector::correct`] then corrects them further.
     fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool);
 
+    /// The step is accepted: its first correction counts among those that later ones are compared with. Gives whether it has columns
+    /// and shape of the step before.
+    fn accept(&mut self) -> bool;
+
     /// Size of the last correction.
     fn last_change(&self) -> Change;
 
-    /// Whether the columns at hand belong to a look-ahead over `step`: to its length and to the shape of its polynomials.
+    /// Whether there are columns for a look-ahead over `step`: for its length and the shape of its polynomials.
     fn has_columns(&self, step: MacroStep) -> bool;
 
-    /// What another correction from the outputs after the advance would change, with the matrix at hand, relative to the
-    /// first corrections of the last macro steps. Comes after [`Corrector::move_on`].
-    fn remainder(&mut self, parts: &Parts) -> f64;
+    /// Learns from the outputs after the advance what the first correction of the step has missed, so that the next first
+    /// correction takes it into account. Comes after [`Corrector::move_on`].
+    fn learn(&mut self, parts: &Parts) -> Missed;
+}
+
+/// What corrections of a step have missed, relative to the first corrections of the last macro steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Missed {
+    /// What another correction with the matrix at hand would change after the last one.
+    pub by_last: f64,
+    /// What the first one would have missed if nothing had been foreseen.
+    pub by_first: f64,
 }

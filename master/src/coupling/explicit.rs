@@ -107,7 +107,7 @@ impl Explicit {
 
     fn solve(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
         self.columns.difference(parts);
-        self.columns.keep_responses(0.0);
+        self.columns.settle(0.0);
         let point = Point::ends(self.history.newest(), self.history.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
         self.system

@@ -9,6 +9,7 @@
 //! * [`position_error`]: errors of positions by those of the multipliers;
 //! * [`error_estimate`]: the error of a macro step against the tolerance;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
+//! * [`shortfall`]: what corrections with kept columns miss, foreseen;
 //! * [`promise`]: what a correction promises, and what the workers make of it;
 //! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
 
@@ -26,6 +27,7 @@ pub mod penalty;
 pub mod position_error;
 pub mod promise;
 pub mod semi_implicit;
+pub mod shortfall;
 pub mod solve;
 pub mod springs;
 pub mod system;

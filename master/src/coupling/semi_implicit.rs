@@ -2,12 +2,13 @@
 
 use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
-use super::corrector::{Again, Corrector};
+use super::corrector::{Again, Corrector, Missed};
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
 use super::layout::Over;
 use super::measure::{Change, Measure};
 use super::position_error::{Correction, PositionErrors};
 use super::promise::Promise;
+use super::shortfall::Shortfall;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
 use super::unknowns::Unknowns;
@@ -26,7 +27,11 @@ pub struct SemiImplicit {
     before: History,
     rows: usize,
     predicted: Vec<f64>,
+    /// What the linearised conditions ask for.
+    solution: Vec<f64>,
+    /// What is changed: the solution, and what it is foreseen to miss.
     change: Vec<f64>,
+    shortfall: Shortfall,
     corrected: Vec<f64>,
     promise: Promise,
     /// Errors of the multipliers as the positions feel them.
@@ -41,8 +46,8 @@ pub struct SemiImplicit {
     measure: Measure,
     /// Whether the look-ahead is the first one over its step.
     is_first: bool,
-    /// To what the columns belong.
-    shape: Shape,
+    /// Whether the step has columns and shape of the one before.
+    continues: bool,
     /// Length of the step that was corrected last.
     solved: f64,
 }
@@ -66,7 +71,9 @@ impl SemiImplicit {
             history,
             rows: parts.layout.rows.len(),
             predicted: zeros(),
+            solution: zeros(),
             change: zeros(),
+            shortfall: Shortfall::new(size),
             corrected: zeros(),
             promise: Promise::new(size),
             load_errors: zeros(),
@@ -77,29 +84,10 @@ impl SemiImplicit {
             remaining: zeros(),
             measure: Measure::new(&parts.layout),
             is_first: true,
-            shape: Shape::default(),
+            continues: false,
             solved: 0.0,
             system,
         }
-    }
-}
-
-/// The step and the nodes of the polynomials to which columns belong.
-#[derive(Default)]
-struct Shape {
-    length: f64,
-    nodes: Vec<f64>,
-}
-
-impl Shape {
-    fn note(&mut self, history: &History, length: f64) {
-        self.length = length;
-        self.nodes.clear();
-        self.nodes.extend_from_slice(history.times());
-    }
-
-    fn is(&self, history: &History, length: f64) -> bool {
-        self.length == length && self.nodes == history.times()
     }
 }
 
@@ -134,17 +122,21 @@ impl Corrector for SemiImplicit {
                 step.length,
                 &mut self.system,
                 &mut self.solvers,
-                &mut self.change,
+                &mut self.solution,
             )
             .map_err(|singular| singular.in_step(parts, step))?;
+        self.change.copy_from_slice(&self.solution);
+        if self.is_first {
+            self.shortfall
+                .complete_first(&mut self.change, self.continues);
+        } else {
+            self.shortfall.add_pass(&self.change);
+        }
         let ends = self.predicted.iter().zip(&self.change);
         for (corrected, (predicted, change)) in self.corrected.iter_mut().zip(ends) {
             *corrected = predicted + change;
         }
         self.promise.take(&self.system);
-        if self.is_first {
-            self.measure.note(&self.change);
-        }
         check_finite(&self.corrected, parts, step)
     }
 
@@ -225,16 +217,17 @@ impl Corrector for SemiImplicit {
         self.columns.request(parts, look, &mut self.memory);
         self.is_first = true;
         self.promise.forget();
-        if with_columns {
-            self.shape.note(&self.history, length);
-        }
+        self.continues = self.columns.begin(length, self.history.times()) && !with_columns;
         Ok(())
     }
 
     fn move_on(&mut self, step: MacroStep) {
         self.before.copy_from(&self.history);
         self.history.push(step.length, &self.corrected);
-        self.columns.keep_responses(step.length);
+        self.columns.settle(step.length);
+        if !self.continues {
+            self.shortfall.forget();
+        }
     }
 
     fn multipliers_at(&self, tau: f64, length: f64, multipliers: &mut [f64]) {
@@ -245,7 +238,7 @@ impl Corrector for SemiImplicit {
     }
 
     fn judge(&mut self, parts: &Parts) -> Verdict {
-        self.promise.judge(&self.system, parts, &self.change)
+        self.promise.judge(&self.system, parts, &self.solution)
     }
 
     fn again(&mut self) -> Option<&mut dyn Again> {
@@ -256,7 +249,7 @@ impl Corrector for SemiImplicit {
 impl Again for SemiImplicit {
     /// The interpolation through the corrected end values takes the place of the extrapolation.
     fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
-        self.promise.remember(&self.system, &self.change);
+        self.promise.remember(&self.system, &self.solution);
         self.predicted.copy_from_slice(&self.corrected);
         self.is_first = false;
         parts.prepare_pass(step);
@@ -272,9 +265,12 @@ impl Again for SemiImplicit {
             with_columns,
         };
         self.columns.request(parts, look, &mut self.memory);
-        if with_columns {
-            self.shape.note(&self.history, step.length);
-        }
+        self.continues &= !with_columns;
+    }
+
+    fn accept(&mut self) -> bool {
+        self.measure.note(&self.change);
+        self.continues
     }
 
     fn last_change(&self) -> Change {
@@ -282,22 +278,22 @@ impl Again for SemiImplicit {
     }
 
     fn has_columns(&self, step: MacroStep) -> bool {
-        self.shape.is(&self.history, step.length)
+        self.columns.has(step.length, self.history.times())
     }
 
     /// The solution for the conditions at the corrected outputs, with the matrix of the correction.
-    fn remainder(&mut self, parts: &Parts) -> f64 {
+    fn learn(&mut self, parts: &Parts) -> Missed {
         let point = Point::ends(&self.corrected, self.before.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
         let system = &mut self.system;
         system.assemble_residuals(&parts.layout, outputs, point);
-        system.drop_rounding(&parts.layout, point);
-        self.condition.solve_again(
-            self.shape.length,
-            system,
-            &mut self.solvers,
-            &mut self.remaining,
-        );
-        self.measure.of(&self.remaining, &self.corrected).of_usual
+        self.condition
+            .solve_again(self.solved, system, &mut self.solvers, &mut self.remaining);
+        let (measure, values) = (&self.measure, &self.corrected);
+        let size = |change: &[f64]| measure.of(change, values).of_usual;
+        Missed {
+            by_last: size(&self.remaining),
+            by_first: self.shortfall.learn(&self.remaining, size),
+        }
     }
 }

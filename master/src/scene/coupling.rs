@@ -192,8 +192,7 @@ pub(super) fn read(
         });
     let jacobian = match section.get("jacobian") {
         Some(field) => field.choice(&JACOBIANS, problems),
-        None if kind == Some(Kind::Hermite) => Some(Jacobian::Reuse),
-        None => Some(Jacobian::EveryStep),
+        None => Some(Jacobian::Reuse),
     };
     let iterations = match section.get("iterations") {
         Some(field) => field

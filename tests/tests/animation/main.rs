@@ -25,6 +25,7 @@ t_end = 0.3
 [coupling]
 method = "weighted"
 macro_step = 1e-3
+jacobian = "every-step"    # kept columns read attitudes
 
 [[subsystem]]
 name = "a"

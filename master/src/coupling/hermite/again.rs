@@ -2,18 +2,23 @@
 
 use super::{Hermite, largest_changes};
 use crate::cosimulation::Parts;
-use crate::coupling::corrector::Again;
+use crate::coupling::corrector::{Again, Missed};
 use crate::coupling::measure::Change;
 use crate::signal::Curves;
 use crate::time::MacroStep;
 
 impl Again for Hermite {
     fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
-        self.promise.remember(&self.end.system, &self.change);
+        self.promise.remember(&self.end.system, &self.solution);
         self.is_first = false;
         parts.prepare_pass(step);
         parts.forgo_evaluation();
-        self.request_look(parts, step, with_columns);
+        self.request_look(parts, with_columns);
+    }
+
+    fn accept(&mut self) -> bool {
+        self.measure.note(&self.changes);
+        self.continues
     }
 
     fn last_change(&self) -> Change {
@@ -21,22 +26,30 @@ impl Again for Hermite {
     }
 
     fn has_columns(&self, step: MacroStep) -> bool {
-        self.columns_of == step.length
+        self.end.columns.has(step.length, &[])
     }
 
     /// The solution for the conditions at the outputs after the advance, with the matrix of the correction.
-    fn remainder(&mut self, parts: &Parts) -> f64 {
+    fn learn(&mut self, parts: &Parts) -> Missed {
         let step = self.before.length();
         self.settled.take(&self.before);
         let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
         let point = self.settled.point(step, self.before.attitudes());
         let system = &mut self.end.system;
         system.assemble_residuals(&parts.layout, outputs, point);
-        system.drop_rounding(&parts.layout, point);
         self.stack.assemble_end(system, step);
         let remaining = self.stack.rhs();
         self.solver.solve_again(remaining);
-        largest_changes(system.unknowns(), remaining, &mut self.changes);
-        self.measure.of(&self.changes, self.settled.ends()).of_usual
+        let (measure, ends) = (&self.measure, self.settled.ends());
+        let unknowns = system.unknowns();
+        let changes = &mut self.changes;
+        let mut size = |change: &[f64]| {
+            largest_changes(unknowns, change, changes);
+            measure.of(changes, ends).of_usual
+        };
+        Missed {
+            by_last: size(remaining),
+            by_first: self.shortfall.learn(remaining, size),
+        }
     }
 }

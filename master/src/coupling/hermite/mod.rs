@@ -40,6 +40,7 @@ use super::layout::Over;
 use super::measure::Measure;
 use super::position_error::PositionErrors;
 use super::promise::Promise;
+use super::shortfall::Shortfall;
 use super::solve::{LinearSolver, SingularColumn};
 use super::system::{Point, System};
 use super::unknowns::Unknowns;
@@ -77,13 +78,19 @@ pub struct Hermite {
     /// The corrected curves of the last step.
     settled: Sample,
     memory: Vec<f64>,
+    /// What the linearised conditions ask for.
+    solution: Vec<f64>,
+    /// What is changed: the solution, and what it is foreseen to miss.
     change: Vec<f64>,
+    shortfall: Shortfall,
     accelerations: Vec<f64>,
     promise: Promise,
     /// Whether the look-ahead is the first one over its step.
     is_first: bool,
-    /// Length of the step to which the columns belong.
-    columns_of: f64,
+    /// Whether the step has columns and shape of the one before.
+    continues: bool,
+    /// Whether the responses at the start of a step are asked for with the next look-ahead: they are measured as often as those at its end.
+    wants_start: bool,
     measure: Measure,
     /// Largest change of the unknowns of each variable.
     changes: Vec<f64>,
@@ -150,18 +157,21 @@ impl Hermite {
             memory: vec![0.0; size],
             errors: change.clone(),
             position_errors: PositionErrors::new(size),
+            solution: change.clone(),
+            shortfall: Shortfall::new(change.len()),
             change,
             accelerations: vec![0.0; size],
             promise: Promise::new(size),
             is_first: true,
-            columns_of: 0.0,
+            continues: false,
+            wants_start: variant.starts_anew(),
             measure: Measure::new(layout),
             changes: vec![0.0; size],
         }
     }
 
     /// Fills in the look-ahead over `step` with the curves at hand.
-    fn request_look(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {
+    fn request_look(&mut self, parts: &mut Parts, with_columns: bool) {
         let look = Look {
             predicted: &self.arcs,
             raised: &self.arcs,
@@ -169,9 +179,7 @@ impl Hermite {
             with_columns,
         };
         self.end.columns.request(parts, look, &mut self.memory);
-        if with_columns {
-            self.columns_of = step.length;
-        }
+        self.continues &= !with_columns;
     }
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
@@ -200,13 +208,17 @@ impl Hermite {
             };
             singular.in_step(parts, step)
         })?;
+        self.solution.copy_from_slice(change);
         self.change.copy_from_slice(change);
+        if self.is_first {
+            self.shortfall
+                .complete_first(&mut self.change, self.continues);
+        } else {
+            self.shortfall.add_pass(&self.change);
+        }
         self.arcs.change(&self.change);
         self.sample.take(&self.arcs);
         largest_changes(self.end.system.unknowns(), &self.change, &mut self.changes);
-        if self.is_first {
-            self.measure.note(&self.changes);
-        }
         self.foresee_accelerations(step.length);
         check_finite(self.sample.ends(), parts, step)
     }
@@ -218,7 +230,7 @@ impl Hermite {
         }
         let system = &self.end.system;
         let accelerations = &mut self.accelerations;
-        system.shift(Level::Acceleration, &self.change, accelerations);
+        system.shift(Level::Acceleration, &self.solution, accelerations);
         let residual = system.residual(Level::Acceleration);
         for (acceleration, residual) in accelerations.iter_mut().zip(residual) {
             *acceleration = -(residual + *acceleration) / (step * step);
@@ -243,10 +255,10 @@ impl Corrector for Hermite {
         parts.prepare_prediction(step.start, step.length);
         self.is_first = true;
         self.promise.forget();
-        self.request_look(parts, step, with_columns);
-        if self.variant.starts_anew() && with_columns {
-            // Also of a step that is repeated from a point that was linearised about before.
-            self.start_is_known = false;
+        self.continues = self.end.columns.begin(step.length, &[]);
+        self.request_look(parts, with_columns);
+        // A step that is repeated starts from a point that is linearised about already.
+        if self.wants_start && !self.start_is_known {
             self.request_evaluation(parts, step.start);
         } else {
             parts.forgo_evaluation();
@@ -291,8 +303,12 @@ impl Corrector for Hermite {
     }
 
     fn move_on(&mut self, step: MacroStep) {
-        self.start.columns.keep_responses(0.0);
-        self.end.columns.keep_responses(step.length);
+        self.start.columns.settle(0.0);
+        self.end.columns.settle(step.length);
+        if !self.continues {
+            self.shortfall.forget();
+        }
+        self.wants_start = self.variant.starts_anew() && !self.continues;
         self.before.copy_from(&self.arcs);
         self.arcs.move_on(self.sample.ends(), &self.accelerations);
         self.read_starts();
@@ -309,7 +325,7 @@ impl Corrector for Hermite {
             self.linearise_start(parts);
             self.refine_multipliers();
         }
-        self.promise.judge(&self.end.system, parts, &self.change)
+        self.promise.judge(&self.end.system, parts, &self.solution)
     }
 
     fn again(&mut self) -> Option<&mut dyn Again> {

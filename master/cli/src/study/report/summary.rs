@@ -8,8 +8,11 @@ use super::{SceneReport, SettingReport};
 /// The methods of S1.
 const S1_METHODS: [&str; 2] = ["baumgarte", "weighted"];
 
+/// What S1 does in every macro step, and here has to be asked for.
+const AS_IN_S1: &str = "coupling.jacobian=\"every-step\"";
+
 /// What these methods have here and not in S1.
-const EXTRAS: [&str; 2] = ["coupling.jacobian=", "coupling.iterations="];
+const EXTRA: &str = "coupling.iterations=";
 
 /// One method and one error.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -72,8 +75,8 @@ fn row(scene: &SceneReport, method: &str, error: f64) -> EnvelopeRow {
 }
 
 fn is_s1(setting: &SettingReport) -> bool {
-    let has_extra = |set: &String| EXTRAS.iter().any(|key| set.starts_with(key));
-    S1_METHODS.contains(&setting.method.as_str()) && !setting.set.iter().any(has_extra)
+    let has = |start: &str| setting.set.iter().any(|set| set.starts_with(start));
+    S1_METHODS.contains(&setting.method.as_str()) && has(AS_IN_S1) && !has(EXTRA)
 }
 
 impl SceneReport {
