@@ -30,7 +30,7 @@ const COUPLINGS: [&str; 6] = [
 ];
 
 fn scene(coupling: &str, increment: &str, others: &[&str]) -> Scene {
-    let coupling = format!("{coupling} macro_step=1e-4 increment={increment}");
+    let coupling = format!("{coupling} macro_step=1e-4 jacobian=every-step increment={increment}");
     let velocities = "output.variables=[\"mass1.v\", \"mass2.v\"]";
     oscillator_with(
         &coupling,

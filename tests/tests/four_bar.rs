@@ -162,7 +162,7 @@ fn orders_on_a_shaken_frame() {
 
 #[test]
 fn one_exchange_a_worker_and_macro_step() {
-    let scene = scene("degree=1", &[]);
+    let scene = scene("degree=1 jacobian=every-step", &[]);
     let connector = Connector::new(Place::InProcess);
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
     let mut simulation = CoSimulation::start(&scene, &mut connect, &Options::default()).unwrap();

@@ -141,7 +141,7 @@ fn differences(
         .filter(|value| value.parse() == Ok(0.0))
         .count();
     let coupling = format!(
-        "method={method} index={index} {}={p} {}={q} macro_step={h} degree={k} exchanged_degree={k}",
+        "method={method} index={index} {}={p} {}={q} macro_step={h} degree={k} exchanged_degree={k} jacobian=every-step",
         names[0],
         names[1],
         k = case["k"],

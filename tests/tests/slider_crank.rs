@@ -133,9 +133,9 @@ fn higher_degrees_dissipate_less() {
         energy[0] - energy[energy.len() - 1]
     };
     let of_degree = [
-        loss("weighted a=1 b=0 degree=0 exchanged_degree=0"),
-        loss("weighted a=1 b=1 degree=1 exchanged_degree=1"),
-        loss("weighted a=2 b=2.6 degree=2 exchanged_degree=2"),
+        loss("weighted a=1 b=0 degree=0 exchanged_degree=0 jacobian=every-step"),
+        loss("weighted a=1 b=1 degree=1 exchanged_degree=1 jacobian=every-step"),
+        loss("weighted a=2 b=2.6 degree=2 exchanged_degree=2 jacobian=every-step"),
     ];
     println!("energy lost with k = 0, 1, 2: {of_degree:?} J");
     let [constant, linear, parabola] = of_degree;

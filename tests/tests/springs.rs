@@ -79,7 +79,9 @@ fn orders_against_the_model_with_springs() {
 /// errors in the table of [`best_springs`].
 #[test]
 fn a_rigid_joint_of_degree_1_is_far_better_at_equal_integrations() {
-    let rigid = rigid_scene("method=weighted index=1 a=2 b=2.6 degree=1 macro_step=1e-3");
+    let rigid = rigid_scene(
+        "method=weighted index=1 a=2 b=2.6 degree=1 macro_step=1e-3 jacobian=every-step",
+    );
     let rigid_run = run(&rigid, Place::InProcess);
     let rigid_error = Errors::of(&rigid_run, closed_form(&rigid)).x;
     // Prediction, perturbed step and correction against one step.

@@ -16,7 +16,17 @@ fn run_with_peer(script: impl FnOnce(Scripted) -> Scripted) -> (Workshop, Outcom
     let workshop = workshop(&[]);
     let peer = Peer::scripted(&workshop, script);
     let setting = format!("subsystem.mass2.address={}", peer.address());
-    let outcome = workshop.run(&run(&["--set", &setting, "--set", "run.deadline=0.4"]));
+    // One exchange for every macro step, whatever the columns are like.
+    let once = "coupling.jacobian=every-step";
+    let settings = [
+        "--set",
+        &setting,
+        "--set",
+        once,
+        "--set",
+        "run.deadline=0.4",
+    ];
+    let outcome = workshop.run(&run(&settings));
     (workshop, outcome)
 }
 
