@@ -29,6 +29,13 @@ const KEEP_FROM: f64 = 0.95;
 /// Where the solution is smooth, the multipliers of a repeated step change less by at least this power of its length.
 const SMOOTH_ORDER: f64 = 0.5;
 
+/// A length that is shorter than a power by this share is taken for it.
+const ROUNDING: f64 = 1e-9;
+
+/// Macro steps are the first one times powers of two with these parts of a whole exponent: columns of a length that comes back serve
+/// again.
+const LENGTHS_PER_OCTAVE: f64 = 8.0;
+
 /// Smallest scaled error that the controller remembers.
 const LEAST_ERROR: f64 = 1e-4;
 
@@ -36,6 +43,8 @@ const LEAST_ERROR: f64 = 1e-4;
 pub struct StepSize {
     control: StepControl,
     scales: ErrorScales,
+    /// Length of the first step in s.
+    first: f64,
     wish: f64,
     /// Scaled error of the last accepted step.
     before: f64,
@@ -70,6 +79,7 @@ impl StepSize {
         Self {
             scales: ErrorScales::new(&control, parts),
             control,
+            first,
             wish: first,
             before: 1.0,
             rejected: None,
@@ -124,7 +134,7 @@ impl StepSize {
         let factor = SAFETY * estimate.scaled.powf(-1.0 / estimate.order as f64);
         let length = step.length * factor.clamp(MOST_SHRINKING, SAFETY);
         Ok(Judgement::Repeat {
-            length: length.max(self.control.least_step),
+            length: self.allowed(length),
             has_jumped,
         })
     }
@@ -138,18 +148,24 @@ impl StepSize {
             Some(_) => 1.0,
             None => MOST_GROWTH,
         };
-        let factor = match possible {
-            KEEP_FROM..=KEEP_TO => 1.0,
-            _ => smooth.clamp(MOST_SHRINKING, most),
+        self.wish = match possible {
+            KEEP_FROM..=KEEP_TO => step.length,
+            _ => self.allowed(step.length * smooth.clamp(MOST_SHRINKING, most)),
         };
+        self.before = scaled;
+        self.statistics.accept(step);
+    }
+
+    /// The longest allowed length that is no longer than this one.
+    fn allowed(&self, length: f64) -> f64 {
+        let octaves = (length / self.first * (1.0 + ROUNDING)).log2();
+        let exponent = (LENGTHS_PER_OCTAVE * octaves).floor() / LENGTHS_PER_OCTAVE;
         let StepControl {
             least_step,
             greatest_step,
             ..
         } = self.control;
-        self.wish = (step.length * factor).clamp(least_step, greatest_step);
-        self.before = scaled;
-        self.statistics.accept(step);
+        (self.first * exponent.exp2()).clamp(least_step, greatest_step)
     }
 
     /// Takes the outputs at the macro point that is reached.

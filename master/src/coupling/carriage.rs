@@ -55,7 +55,7 @@ struct Measured {
 }
 
 /// Most shapes whose columns stay: macro steps that vary come back to the same lengths.
-const MOST_SHAPES: usize = 8;
+const MOST_SHAPES: usize = 16;
 
 impl Carriage {
     /// For the frames of `layout`.

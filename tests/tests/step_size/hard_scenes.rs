@@ -121,7 +121,7 @@ const METHODS: [&str; 5] = [
     "method=weighted degree=2",
     "method=weighted degree=3",
     "method=baumgarte degree=2",
-    "method=hermite jacobian=every-step",
+    "method=hermite",
 ];
 
 /// A run with variable steps that meets its tolerance.
@@ -152,7 +152,7 @@ impl Hard {
         let error = error(self.exact, &scene, &trajectory);
         let context = format!("{}, {coupling}: {error:?}", self.name);
         assert!(error.largest <= 10.0 * tolerance, "{context}");
-        assert!(error.largest >= 1e-3 * tolerance, "{context}: too careful");
+        assert!(error.largest >= 5e-4 * tolerance, "{context}: too careful");
         Sound {
             context,
             scene,
@@ -205,7 +205,7 @@ impl Hard {
 
 #[test]
 fn a_stiff_spring() {
-    STIFF_SPRING.check(&METHODS, 2.0);
+    STIFF_SPRING.check(&METHODS, 1.3);
 }
 
 #[test]
@@ -215,7 +215,7 @@ fn a_preloaded_spring() {
 
 #[test]
 fn masses_of_a_gram_and_a_ton() {
-    MASS_RATIO.check(&METHODS, 1.5);
+    MASS_RATIO.check(&METHODS, 1.2);
 }
 
 #[test]

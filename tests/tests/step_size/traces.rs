@@ -18,10 +18,16 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let crank = "method=weighted degree=1 tolerance=1e-5 macro_step=1e-2";
     vec![
         ("exact", stiff("tolerance=1e-5 degree=1", &[])),
-        ("radau5", stiff("tolerance=1e-4 degree=2", &[RADAU5])),
+        (
+            "radau5",
+            stiff("tolerance=1e-4 degree=2 macro_step=1e-3", &[RADAU5]),
+        ),
         (
             "single calls",
-            stiff("tolerance=1e-5 degree=3", &["subsystem.mass1.calls=unary"]),
+            stiff(
+                "tolerance=1e-5 degree=3 macro_step=1e-3",
+                &["subsystem.mass1.calls=unary"],
+            ),
         ),
         (
             "plane",
@@ -29,6 +35,15 @@ fn scenes() -> Vec<(&'static str, Scene)> {
                 HEAVY,
                 "tolerance=1e-6 macro_step=1e-2",
                 &["scene.t_end=0.2"],
+            ),
+        ),
+        ("hermite", stiff("method=hermite tolerance=1e-6", &[])),
+        (
+            "hermite in the plane",
+            with_settings(
+                HEAVY,
+                "method=hermite tolerance=1e-7 macro_step=2e-2",
+                &["scene.t_end=0.4"],
             ),
         ),
         (
