@@ -1,0 +1,1 @@
+//! Steps that were taken back leave no trace.
