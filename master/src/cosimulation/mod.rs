@@ -43,6 +43,7 @@ use samples::Samples;
 pub use start::{Connect, Options, describe};
 use step_size::StepSize;
 pub(crate) use subsystem::exchange;
+use uncorrected::Ceiling;
 
 /// A running co-simulation.
 pub struct CoSimulation {
@@ -52,6 +53,7 @@ pub struct CoSimulation {
     plan: TimePlan,
     /// Present if the macro step varies.
     step_size: Option<StepSize>,
+    ceiling: Ceiling,
     row: Row,
     /// For samples inside the last macro step.
     sample_row: Row,
@@ -124,7 +126,8 @@ impl CoSimulation {
                 step_size,
             )?,
             Scheme::Uncorrected(method) => {
-                uncorrected::macro_step(&mut **method, parts, plan, step, step_size)?
+                let steps = step_size.map(|steps| (steps, &mut self.ceiling));
+                uncorrected::macro_step(&mut **method, parts, plan, step, steps)?
             }
         };
         let step = outcome.step;

@@ -14,6 +14,7 @@ use super::step_size::{plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
+use super::uncorrected::Ceiling;
 use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
@@ -128,6 +129,7 @@ impl CoSimulation {
             renewal: Renewal::new(scene.coupling.jacobian, scene.coupling.iterations),
             plan,
             step_size,
+            ceiling: Ceiling::new(),
             sample_row: row.clone(),
             multipliers: vec![0.0; multipliers],
             last_length: 0.0,

@@ -170,12 +170,17 @@ impl Springs {
         })
     }
 
-    /// Errors of row `row` at the ends of the step: of the spring's force by what it saw of end b, and of the force on end b.
+    /// Mean errors over the step in row `row`: of the spring's force by what it saw of end b, and of the force on end b.
     fn misses(&self, parts: &Parts, row: usize, step: MacroStep) -> [f64; 2] {
         let rows = parts.layout.rows.len();
         let [a, b] = parts.layout.joint_of(row).ends.each_ref();
+        // That of the end value, and what the curve through that misses within the step.
         let miss = |variable: usize, number: usize| {
-            self.values[variable] - self.used(variable, parts, number, step)
+            let used = self.used(variable, parts, number, step);
+            let miss = self.history.extrapolation_miss(variable, step.length);
+            let within = self.history.error_shares(variable, step.length);
+            miss.mean * (self.values[variable] - used)
+                + within.mean * (used - self.extrapolated(variable, step))
         };
         let seen = [rows + row, 2 * rows + row].map(|variable| miss(variable, a.subsystem));
         let Spring { stiffness, damping } = self.spring;
@@ -230,7 +235,7 @@ impl Uncorrected for Springs {
         let mut order = 1;
         for row in 0..parts.layout.rows.len() {
             let miss = self.history.extrapolation_miss(row, step.length);
-            let [at_spring, at_b] = self.misses(parts, row, step).map(|end| miss.mean * end);
+            let [at_spring, at_b] = self.misses(parts, row, step);
             let displaced = displacement(&self.spring, at_spring, scales.span());
             let scaled = displaced.abs() / scales.allowed_of_opening(&parts.layout, row);
             estimate.add(scaled, miss.order, Suspect::Opening(row));
