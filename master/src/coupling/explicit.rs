@@ -19,7 +19,7 @@ use crate::time::MacroStep;
 
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices
-/// and no step is repeated.
+/// and with a fixed macro step none is repeated.
 ///
 /// Error of a step: with held multipliers `g''` is off by half of what their change over the step makes of it, in the mean. The equation in
 /// `g` takes that for a displacement of the joint by `mu^2` times as much, to which the joint closes.

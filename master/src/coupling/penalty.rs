@@ -3,7 +3,7 @@
 //! A spring and a damper stand in place of every condition `g` of a joint. At each macro point the multiplier is their load,
 //! `lambda = -s (K g + D g')`, with `s` the [`load_power`](crate::joint::Condition::load_power) of the condition, so that a
 //! condition that is open is pulled shut; exchanged variables are what the outputs show, `w = y`. All are extrapolated
-//! over the next step through their past values, and no step is repeated.
+//! over the next step through their past values, and with a fixed macro step none is repeated.
 //!
 //! Jacobi: all subsystems step at once. Gauss-Seidel: one after the other in the order of the scene; the end values of
 //! the coupling variables follow from the outputs of those that have stepped and the extrapolated outputs of the others,
@@ -130,6 +130,36 @@ impl Penalty {
         }
     }
 
+    /// Adds the errors by what the later end of every joint felt more than the first; the extrapolated variables stand in the memory.
+    fn add_unbalanced(
+        &mut self,
+        parts: &Parts,
+        step: MacroStep,
+        scales: &ErrorScales,
+        estimate: &mut Estimate,
+    ) {
+        let Some(sequence) = &mut self.sequence else {
+            return;
+        };
+        let Some(unbalanced) = &mut sequence.unbalanced else {
+            return;
+        };
+        let mut order = 1;
+        for (row, errors) in sequence.errors.iter_mut().enumerate() {
+            let more = sequence.later[row] - self.memory[row];
+            let miss = self.history.end_miss(row, step.length);
+            errors[later_end(&parts.layout, row)] = miss.mean * more;
+            order = self.history.extrapolation_miss(row, step.length).order;
+        }
+        let loads = Loads {
+            values: &self.ends,
+            attitudes: self.history.attitudes(),
+            errors: &sequence.errors,
+            order,
+        };
+        unbalanced.estimate(parts, step, loads, scales, estimate);
+    }
+
     fn note_later_loads(&mut self, layout: &Layout, number: usize) {
         let Some(sequence) = &mut self.sequence else {
             return;
@@ -212,24 +242,7 @@ impl Uncorrected for Penalty {
         }
         let curves = [&self.memory[..], &self.ends];
         add_exchanged_errors(layout, &self.history, curves, step, scales, &mut estimate);
-        if let Some(sequence) = &mut self.sequence {
-            let mut order = 1;
-            for (row, errors) in sequence.errors.iter_mut().enumerate() {
-                let miss = self.history.end_miss(row, step.length);
-                order = self.history.extrapolation_miss(row, step.length).order;
-                errors[later_end(layout, row)] =
-                    miss.mean * (sequence.later[row] - self.memory[row]);
-            }
-            let loads = Loads {
-                values: &self.ends,
-                attitudes: self.history.attitudes(),
-                errors: &sequence.errors,
-                order,
-            };
-            if let Some(unbalanced) = &mut sequence.unbalanced {
-                unbalanced.estimate(parts, step, loads, scales, &mut estimate);
-            }
-        }
+        self.add_unbalanced(parts, step, scales, &mut estimate);
         estimate
     }
 

@@ -39,7 +39,7 @@ impl Integrations {
     /// Counts what a request asks for; a look-ahead of zero length evaluates and integrates nothing.
     pub(crate) fn count(&mut self, request: &ExchangeRequest, looks_ahead_for: Cause) {
         if request.go_back {
-            self.corrector -= 1;
+            self.corrector = self.corrector.saturating_sub(1);
             self.taken_back += 1;
         }
         if let Some(advance) = &request.advance {

@@ -97,29 +97,66 @@ fn explicit_against_the_closed_form() {
 
 const PENDULUM: &str = include_str!("../../../scenes/double-pendulum.toml");
 const CRANK: &str = include_str!("../../../scenes/slider-crank.toml");
+const UNIVERSAL: &str = include_str!("../../../scenes/spatial/universal-pendulum.toml");
 
 const SPRINGS: &str =
     "degree=1 stiffness=3.1e4 damping=71 angular_stiffness=2.3e3 angular_damping=7";
 
 /// Mechanisms with loads that turn, against a run of the same scene with a far smaller tolerance; the smallest share of the tolerance that the
-/// error may have. On the double pendulum the torsional spring and damper of the ground hinge take up what Gauss-Seidel leaves unbalanced, which
-/// the master cannot know.
+/// error may have. On the pendulums the spring and damper of the ground hinge take up what Gauss-Seidel leaves unbalanced, which the master
+/// cannot know.
 #[test]
 fn mechanisms_against_finer_runs() {
     let of_springs = |order: &str| format!("method=penalty order={order} {SPRINGS}");
     let explicit = || "method=explicit mu=10H exchanged_degree=0".to_owned();
-    for (text, method, [finest, middle, loosest], least) in [
-        (PENDULUM, of_springs("jacobi"), [1e-7, 1e-4, 1e-3], 1e-3),
+    let angles = &["link1.angle", "link2.angle"][..];
+    let in_space = &["lower.x", "lower.y", "lower.z"][..];
+    for (text, columns, method, [finest, middle, loosest], least) in [
         (
             PENDULUM,
+            angles,
+            of_springs("jacobi"),
+            [1e-7, 1e-4, 1e-3],
+            1e-3,
+        ),
+        (
+            PENDULUM,
+            angles,
             of_springs("gauss-seidel"),
             [1e-5, 1e-3, 1e-2],
             1e-4,
         ),
-        (PENDULUM, explicit(), [1e-7, 1e-4, 1e-3], 1e-3),
-        (CRANK, of_springs("jacobi"), [1e-7, 1e-4, 1e-3], 1e-3),
-        (CRANK, of_springs("gauss-seidel"), [1e-6, 1e-4, 1e-3], 1e-3),
-        (CRANK, explicit(), [1e-4, 3e-3, 3e-2], 1e-3),
+        (PENDULUM, angles, explicit(), [1e-7, 1e-4, 1e-3], 1e-3),
+        (
+            CRANK,
+            angles,
+            of_springs("jacobi"),
+            [1e-7, 1e-4, 1e-3],
+            1e-3,
+        ),
+        (
+            CRANK,
+            angles,
+            of_springs("gauss-seidel"),
+            [1e-6, 1e-4, 1e-3],
+            1e-3,
+        ),
+        (CRANK, angles, explicit(), [1e-4, 3e-3, 3e-2], 1e-3),
+        (
+            UNIVERSAL,
+            in_space,
+            of_springs("jacobi"),
+            [1e-7, 1e-4, 1e-3],
+            1e-3,
+        ),
+        (
+            UNIVERSAL,
+            in_space,
+            of_springs("gauss-seidel"),
+            [1e-6, 1e-4, 1e-3],
+            1e-4,
+        ),
+        (UNIVERSAL, in_space, explicit(), [1e-4, 3e-3, 3e-2], 1e-3),
     ] {
         let sampled = |tolerance: f64| {
             let coupling = format!("{method} tolerance={tolerance:e}");
@@ -130,8 +167,7 @@ fn mechanisms_against_finer_runs() {
         let times = fine.column("t");
         for tolerance in [middle, loosest] {
             let trajectory = sampled(tolerance);
-            let columns = ["link1.angle", "link2.angle"];
-            let error = error(&trajectory, &columns, |column, t| {
+            let error = error(&trajectory, columns, |column, t| {
                 let place = times.iter().position(|time| *time == t).unwrap();
                 fine.column(column)[place]
             });
