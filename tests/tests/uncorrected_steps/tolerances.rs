@@ -108,7 +108,7 @@ const SPRINGS: &str =
 #[test]
 fn mechanisms_against_finer_runs() {
     let of_springs = |order: &str| format!("method=penalty order={order} {SPRINGS}");
-    let explicit = || "method=explicit mu=10H exchanged_degree=0".to_owned();
+    let explicit = || "method=explicit mu=10H degree=0 exchanged_degree=0".to_owned();
     let angles = &["link1.angle", "link2.angle"][..];
     let in_space = &["lower.x", "lower.y", "lower.z"][..];
     for (text, columns, method, [finest, middle, loosest], least) in [
