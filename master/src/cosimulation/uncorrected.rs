@@ -30,7 +30,8 @@ pub(super) fn macro_step(
     Ok(outcome)
 }
 
-/// A jump of the loads needs no history that starts anew: a step that is short enough takes it, whatever lies before.
+/// Shortens the step until its error is small enough. Histories never start anew, also where loads jump: the run with the accepted steps
+/// alone, which knows of no rejected one, has equal bits.
 fn advance_until_accepted(
     method: &mut dyn Uncorrected,
     parts: &mut Parts,
