@@ -20,11 +20,17 @@ fn sampled(coupling: &str, place: Place) -> Trajectory {
 }
 
 /// The couplings of the tests: fixed and variable steps, some shorter and some longer than the interval.
-const COUPLINGS: [&str; 4] = [
+const COUPLINGS: [&str; 10] = [
     "method=hermite macro_step=5e-3",
     "method=hermite macro_step=3.1e-2",
     "method=hermite tolerance=1e-9",
     "method=weighted index=1 a=2 b=2.6 degree=2 tolerance=1e-7",
+    "method=explicit mu=10H tolerance=1e-4",
+    "method=penalty stiffness=2.7e4 damping=31 degree=1 macro_step=3.1e-3",
+    "method=penalty stiffness=2.7e4 damping=31 degree=2 tolerance=1e-5",
+    "method=penalty order=gauss-seidel stiffness=2.7e4 damping=31 degree=1 tolerance=1e-5",
+    "method=jacobi stiffness=2.7e4 damping=31 degree=1 macro_step=1.7e-3",
+    "method=gauss-seidel stiffness=2.7e4 damping=31 degree=1 tolerance=1e-4",
 ];
 
 #[test]
@@ -86,14 +92,37 @@ fn samples_disturb_nothing() {
     }
 }
 
+/// The springs of the methods without a corrector are read from the outputs at the samples: with the same macro steps, multiplier and
+/// residual belong to each other there as they do at macro points.
 #[test]
-fn methods_without_corrector_have_no_samples() {
-    let interval = format!("output.interval={INTERVAL}");
-    let scene = scene("method=explicit mu=1e-2", &[&interval]);
-    let options = linchpin_master::cosimulation::Options::default();
-    let error = linchpin_tests::runs::try_run(&scene, Place::InProcess, &options).unwrap_err();
-    let shown = error.to_string();
-    assert!(shown.contains("output.every does the same"), "{shown}");
+fn spring_loads_belong_to_the_openings_at_the_samples() {
+    for coupling in &COUPLINGS[5..] {
+        let trajectory = sampled(coupling, Place::InProcess);
+        let column = |name: &str| trajectory.column(name).into_iter();
+        let rates = column("link.residual.velocity");
+        let openings = column("link.residual.position").zip(rates);
+        let loads: Vec<f64> = column("link.lambda").collect();
+        let size = loads.iter().fold(0.0f64, |most, load| most.max(load.abs()));
+        for ((opening, rate), load) in openings.zip(&loads) {
+            let expected = 2.7e4 * opening + 31.0 * rate;
+            assert!((load - expected).abs() < 1e-9 * size, "{coupling}");
+        }
+        assert!(size > 100.0, "{coupling}");
+    }
+}
+
+/// The explicit method holds its multipliers: a sample shows those of the macro point before it.
+#[test]
+fn held_multipliers_are_those_of_the_last_macro_point() {
+    let coupling = "method=explicit mu=1e-2 macro_step=1e-2";
+    let points = run(&scene(coupling, &[]), Place::InProcess);
+    let (times, loads) = (points.column("t"), points.column("link.lambda"));
+    let trajectory = sampled(coupling, Place::InProcess);
+    let samples = trajectory.column("t").into_iter();
+    for (t, load) in samples.zip(trajectory.column("link.lambda")) {
+        let before = times.iter().rposition(|&point| point <= t + 1e-12).unwrap();
+        assert_eq!(load, loads[before], "{t}");
+    }
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod start;
 mod step_size;
 mod subsystem;
 mod tie;
+mod uncorrected;
 mod velocities;
 
 use std::time::{Duration, Instant};
@@ -28,10 +29,8 @@ pub use tie::multiplier_columns;
 pub use velocities::FreeVelocity;
 
 use crate::coupling::corrector::Corrector;
-use crate::coupling::explicit::Explicit;
 use crate::coupling::layout::Layout;
-use crate::coupling::penalty::Penalty;
-use crate::coupling::springs::Springs;
+use crate::coupling::uncorrected::Uncorrected;
 use crate::error::RunError;
 use crate::results::{Cause, Guard, Row, Statistics, Verdict};
 use crate::scene::Scene;
@@ -44,6 +43,7 @@ use samples::Samples;
 pub use start::{Connect, Options, describe};
 use step_size::StepSize;
 pub(crate) use subsystem::exchange;
+use uncorrected::Ceiling;
 
 /// A running co-simulation.
 pub struct CoSimulation {
@@ -53,6 +53,7 @@ pub struct CoSimulation {
     plan: TimePlan,
     /// Present if the macro step varies.
     step_size: Option<StepSize>,
+    ceiling: Ceiling,
     row: Row,
     /// For samples inside the last macro step.
     sample_row: Row,
@@ -76,9 +77,7 @@ pub struct Parts {
 /// The coupling method with its state.
 pub(crate) enum Scheme {
     Corrected(Box<dyn Corrector>),
-    Explicit(Box<Explicit>),
-    Penalty(Box<Penalty>),
-    Springs(Springs),
+    Uncorrected(Box<dyn Uncorrected>),
 }
 
 /// What a method reports of a macro step.
@@ -108,32 +107,29 @@ impl Outcome {
 impl CoSimulation {
     /// Runs one macro step; `false` if the end was reached before.
     ///
-    /// The method corrects the multipliers, lets all workers advance and look ahead in one exchange; then the step is
-    /// judged and its row is there to be recorded.
+    /// A method with a corrector corrects the multipliers, lets all workers advance and look ahead in one exchange; one without lets
+    /// them advance. Then the step is judged and its row is there to be recorded.
     pub fn macro_step(&mut self) -> Result<bool, RunError> {
         let Some(step) = self.plan.step() else {
             return Ok(false);
         };
         let started = Instant::now();
+        let (parts, plan) = (&mut self.parts, &mut self.plan);
+        let step_size = self.step_size.as_mut();
         let outcome = match &mut self.scheme {
-            Scheme::Corrected(method) => {
-                let step_size = self.step_size.as_mut();
-                corrected::macro_step(
-                    &mut **method,
-                    &mut self.parts,
-                    &mut self.renewal,
-                    &mut self.plan,
-                    step,
-                    step_size,
-                )?
+            Scheme::Corrected(method) => corrected::macro_step(
+                &mut **method,
+                parts,
+                &mut self.renewal,
+                plan,
+                step,
+                step_size,
+            )?,
+            Scheme::Uncorrected(method) => {
+                let steps = step_size.map(|steps| (steps, &mut self.ceiling));
+                uncorrected::macro_step(&mut **method, parts, plan, step, steps)?
             }
-            Scheme::Explicit(method) => method.macro_step(&mut self.parts, step)?,
-            Scheme::Penalty(method) => method.macro_step(&mut self.parts, step)?,
-            Scheme::Springs(method) => method.macro_step(&mut self.parts, step)?,
         };
-        if !matches!(self.scheme, Scheme::Corrected(_)) {
-            self.plan.move_on(self.plan.following(step.length));
-        }
         let step = outcome.step;
         self.last_length = step.length;
         self.row.read(step, &self.parts, self.scheme.multipliers());
@@ -192,10 +188,13 @@ impl CoSimulation {
             length,
             end,
         };
-        let Scheme::Corrected(method) = &self.scheme else {
-            return None;
-        };
-        method.multipliers_at(length, self.last_length, &mut self.multipliers);
+        let multipliers = &mut self.multipliers;
+        match &self.scheme {
+            Scheme::Corrected(method) => {
+                method.multipliers_at(length, self.last_length, multipliers);
+            }
+            Scheme::Uncorrected(method) => method.multipliers_at(&self.parts, place, multipliers),
+        }
         self.sample_row
             .read_sample(sample, place, &self.parts, &self.multipliers);
         Some((number, &self.sample_row))
@@ -253,6 +252,13 @@ impl Parts {
             advance.signals.resize_with(inputs, Default::default);
         }
         self.request_samples(step);
+    }
+
+    /// Makes every subsystem's next request take its last advance back, before anything else.
+    pub(crate) fn go_back(&mut self) {
+        for subsystem in &mut self.subsystems {
+            subsystem.request.go_back = true;
+        }
     }
 
     /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0; subsystems whose outputs nobody
@@ -319,9 +325,7 @@ impl Scheme {
     pub(crate) fn multipliers(&self) -> &[f64] {
         match self {
             Self::Corrected(method) => method.multipliers(),
-            Self::Explicit(method) => method.multipliers(),
-            Self::Penalty(method) => method.multipliers(),
-            Self::Springs(method) => method.multipliers(),
+            Self::Uncorrected(method) => method.multipliers(),
         }
     }
 }

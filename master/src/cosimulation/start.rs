@@ -14,6 +14,7 @@ use super::step_size::{plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
+use super::uncorrected::Ceiling;
 use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
@@ -27,7 +28,7 @@ use crate::coupling::semi_implicit::SemiImplicit;
 use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Jacobian, Method, Order, Scene};
+use crate::scene::{self, Jacobian, Method, Order, Scene, Spring};
 use crate::signal::{History, Variables};
 use crate::time::{MacroStep, TimePlan};
 
@@ -94,14 +95,17 @@ impl CoSimulation {
         let mut parts = Parts {
             subsystems,
             layout,
-            samples: samples_of(scene)?,
+            samples: scene
+                .output
+                .interval
+                .map(|interval| Samples::new(scene.t_start, interval)),
         };
         let free_velocities =
             velocities::choose(scene, &coupled, &models, &mut requests, &mut parts)?;
         let initial = initial_state(scene, &coupled, &parts, options)?;
         initial.read_outputs(scene.t_start, &mut parts)?;
         let plan = plan_of(scene, options);
-        let step_size = step_size_of(scene, options, &parts)?;
+        let step_size = step_size_of(scene, options, &parts);
         let scheme = begin(scene, options, initial, &mut parts, &plan)?;
         let mut row = Row::new(&parts, scene.coupling.step_control.is_some());
         row.read(super::at_start(scene.t_start), &parts, scheme.multipliers());
@@ -109,9 +113,11 @@ impl CoSimulation {
         let mechanism = options
             .record_markers
             .then(|| Mechanism::new(scene, &models, &joints, row.columns()));
-        let guard = match &scheme {
+        let guard = match &scene.coupling.method {
             _ if options.watch_nothing => Guard::off(),
-            Scheme::Penalty(_) | Scheme::Springs(_) => Guard::of_springs(),
+            Method::Penalty { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
+                Guard::of_springs()
+            }
             _ => Guard::of_rigid_joints(),
         };
         let mut statistics = Statistics::new(&parts.layout);
@@ -123,6 +129,7 @@ impl CoSimulation {
             renewal: Renewal::new(scene.coupling.jacobian, scene.coupling.iterations),
             plan,
             step_size,
+            ceiling: Ceiling::new(),
             sample_row: row.clone(),
             multipliers: vec![0.0; multipliers],
             last_length: 0.0,
@@ -331,8 +338,13 @@ fn begin(
         Method::Explicit { mu } => {
             let history = History::new(variables, &values, attitudes);
             let mut method = Explicit::new(mu, coupling.increment, history, parts);
-            method.begin(parts, first_step(plan))?;
-            return Ok(Scheme::Explicit(Box::new(method)));
+            let mut first = first_step(plan);
+            if coupling.step_control.is_some() {
+                // Whatever becomes of the first step, the start is the same.
+                first.length = coupling.macro_step;
+            }
+            method.begin(parts, first)?;
+            return Ok(Scheme::Uncorrected(Box::new(method)));
         }
         Method::Penalty {
             order,
@@ -340,25 +352,22 @@ fn begin(
             angles,
         } => {
             let springs = penalty::springs_of(scene, lengths, angles, &parts.layout)?;
-            write_loads(&springs, parts, &mut values);
+            let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+            write_loads(&springs, &parts.layout, outputs, &mut values);
             let history = history_of(scene, options, variables, &values, attitudes);
             let degree = coupling.exchanged_degree;
             let method = Penalty::new(order, springs, history, degree, parts);
-            return Ok(Scheme::Penalty(Box::new(method)));
+            return Ok(Scheme::Uncorrected(Box::new(method)));
         }
         Method::Jacobi { stiffness, damping } => {
-            let order = Order::Jacobi;
-            let degree = coupling.degree;
-            return Ok(Scheme::Springs(Springs::new(
-                order, stiffness, damping, degree, parts,
-            )));
+            let spring = Spring { stiffness, damping };
+            let method = Springs::new(Order::Jacobi, spring, coupling.degree, parts);
+            return Ok(Scheme::Uncorrected(Box::new(method)));
         }
         Method::GaussSeidel { stiffness, damping } => {
-            let order = Order::GaussSeidel;
-            let degree = coupling.degree;
-            return Ok(Scheme::Springs(Springs::new(
-                order, stiffness, damping, degree, parts,
-            )));
+            let spring = Spring { stiffness, damping };
+            let method = Springs::new(Order::GaussSeidel, spring, coupling.degree, parts);
+            return Ok(Scheme::Uncorrected(Box::new(method)));
         }
     };
     let history = history_of(scene, options, variables, &values, attitudes);
@@ -394,19 +403,4 @@ fn history_of(
 /// The scene has checked that the time span is at least one step long.
 fn first_step(plan: &TimePlan) -> MacroStep {
     plan.step().unwrap_or_else(|| super::at_start(plan.t()))
-}
-
-/// The samples that the scene asks for.
-fn samples_of(scene: &Scene) -> Result<Option<Samples>, RunError> {
-    let Some(interval) = scene.output.interval else {
-        return Ok(None);
-    };
-    if !scene.coupling.method.keeps_columns() {
-        let message = "results at fixed times come with hermite, weighted and baumgarte";
-        let help = "leave output.interval out: with a fixed macro step output.every does the same";
-        return Err(scene
-            .error("output.interval", message, Some(help.into()))
-            .into());
-    }
-    Ok(Some(Samples::new(scene.t_start, interval)))
 }

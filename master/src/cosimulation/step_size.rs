@@ -4,7 +4,7 @@ use crate::cosimulation::{Options, Parts};
 use crate::coupling::error_estimate::{ErrorScales, Estimate};
 use crate::error::RunError;
 use crate::results::StepStatistics;
-use crate::scene::{Method, Scene, StepControl};
+use crate::scene::{Scene, StepControl};
 use crate::time::{MacroStep, TimePlan};
 
 /// Share of the step that would just be accepted.
@@ -74,10 +74,10 @@ pub enum Judgement {
 }
 
 impl StepSize {
-    /// From a first step of length `first`, at a start whose outputs are known.
-    pub fn new(control: StepControl, first: f64, parts: &Parts) -> Self {
+    /// From a first step of length `first` in a run over `span` s, at a start whose outputs are known.
+    pub fn new(control: StepControl, first: f64, span: f64, parts: &Parts) -> Self {
         Self {
-            scales: ErrorScales::new(&control, parts),
+            scales: ErrorScales::new(&control, span, parts),
             control,
             first,
             wish: first,
@@ -185,30 +185,11 @@ pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
 }
 
 /// The control of the steps, if the scene asks for one; outputs at the start are known.
-pub(super) fn step_size_of(
-    scene: &Scene,
-    options: &Options,
-    parts: &Parts,
-) -> Result<Option<StepSize>, RunError> {
-    let Some(control) = scene.coupling.step_control else {
-        return Ok(None);
-    };
+pub(super) fn step_size_of(scene: &Scene, options: &Options, parts: &Parts) -> Option<StepSize> {
+    let control = scene.coupling.step_control?;
     if options.step_lengths.is_some() {
-        return Ok(None);
+        return None;
     }
-    match scene.coupling.method {
-        Method::Baumgarte { .. } | Method::Weighted { .. } | Method::Hermite { .. } => Ok(Some(
-            StepSize::new(control, scene.coupling.macro_step, parts),
-        )),
-        Method::Explicit { .. }
-        | Method::Penalty { .. }
-        | Method::Jacobi { .. }
-        | Method::GaussSeidel { .. } => {
-            let message = "the macro step of explicit, penalty, jacobi and gauss-seidel does not vary: they have no corrector that tells an error before a step is taken";
-            let help = "choose coupling.method = \"hermite\", \"weighted\" or \"baumgarte\", or leave coupling.tolerance out";
-            Err(scene
-                .error("coupling.tolerance", message, Some(help.into()))
-                .into())
-        }
-    }
+    let (first, span) = (scene.coupling.macro_step, scene.t_end - scene.t_start);
+    Some(StepSize::new(control, first, span, parts))
 }

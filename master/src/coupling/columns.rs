@@ -153,8 +153,7 @@ impl Columns {
     pub fn settle(&mut self, length: f64) {
         self.carriage.settle();
         for column in &mut self.columns {
-            let value = column.response;
-            column.kept = Response { value, length };
+            column.keep_response(length);
         }
     }
 
@@ -267,9 +266,15 @@ impl Column {
         derivatives.fold(0.0, |largest: f64, one| largest.max(one.abs()))
     }
 
+    /// The step of this length is done: its response is what increments are chosen by.
+    pub fn keep_response(&mut self, length: f64) {
+        let value = self.response;
+        self.kept = Response { value, length };
+    }
+
     /// The increment under which the last known response stands a thousand times above `noise` over a step of this length; 0
     /// if nothing responds.
-    fn audible(&self, length: f64, noise: f64) -> f64 {
+    pub fn audible(&self, length: f64, noise: f64) -> f64 {
         let response = self.kept.over(length);
         if response > 0.0 {
             ABOVE_NOISE * noise / response

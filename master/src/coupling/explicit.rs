@@ -1,28 +1,38 @@
 //! The explicit index-1 method of Gu & Asada (S1 ref. 16 and Sect. 4.1.3), for comparison.
 
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
+use super::error_estimate::{ErrorScales, Estimate, Suspect};
 use super::layout::Over;
 use super::solve::LinearSolver;
 use super::system::{Point, System};
+use super::uncorrected::{Uncorrected, add_exchanged_errors};
 use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Outcome, Parts, exchange};
+use crate::cosimulation::{Ahead, Parts, exchange};
 use crate::error::RunError;
+use crate::joint::Level;
 use crate::scene::{Formula, Increment};
 use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
 
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices
-/// and no step is repeated.
+/// and with a fixed macro step none is repeated.
+///
+/// Error of a step: with held multipliers `g''` is off by half of what their change over the step makes of it, in the mean. The equation in
+/// `g` takes that for a displacement of the joint by `mu^2` times as much, to which the joint closes.
 pub struct Explicit {
     mu: Formula,
     history: History,
     rows: usize,
     change: Vec<f64>,
+    /// What the change makes of `g''`.
+    shift: Vec<f64>,
     values: Vec<f64>,
+    /// Multipliers of the last step that was taken.
+    held: Vec<f64>,
     memory: Vec<f64>,
     columns: Columns,
     system: System,
@@ -40,7 +50,9 @@ impl Explicit {
             mu,
             rows: parts.layout.rows.len(),
             change: vec![0.0; size],
+            shift: vec![0.0; size],
             values: history.newest().to_vec(),
+            held: vec![0.0; parts.layout.rows.len()],
             history,
             memory: vec![0.0; size],
             columns,
@@ -49,43 +61,19 @@ impl Explicit {
         }
     }
 
-    /// Multipliers at the present macro point.
-    pub fn multipliers(&self) -> &[f64] {
-        &self.history.newest()[..self.rows]
-    }
-
     /// Evaluates the first macro point and solves for its multipliers.
     pub fn begin(&mut self, parts: &mut Parts, first: MacroStep) -> Result<(), RunError> {
         self.request_evaluation(parts, first.start);
         exchange(&mut parts.subsystems, first)?;
         self.solve(parts, first)?;
-        self.history.push(0.0, &self.values);
+        self.take(0.0);
         Ok(())
     }
 
-    /// One macro step: advance with the multipliers of its start, evaluate its end, solve there.
-    pub fn macro_step(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Outcome, RunError> {
-        parts.prepare_advance(step);
-        // All variables are held: their polynomials have degree 0.
-        let mut over = Over {
-            curves: &Lagrange {
-                history: &self.history,
-                curve: Curve::Extrapolated,
-                length: step.length,
-            },
-            memory: &mut self.memory,
-        };
-        for input in &parts.layout.inputs {
-            let subsystem = &mut parts.subsystems[input.subsystem];
-            input.signal(&mut over, subsystem.advance_signal(input.place));
-        }
-        self.request_evaluation(parts, step.end);
-        exchange(&mut parts.subsystems, step)?;
-        let started = Instant::now();
-        self.solve(parts, step)?;
-        let solving = started.elapsed();
-        self.history.push(step.length, &self.values);
-        Ok(Outcome::of_step(step, solving))
+    /// Goes on with the solution.
+    fn take(&mut self, length: f64) {
+        self.columns.settle(0.0);
+        self.history.push(length, &self.values);
     }
 
     fn request_evaluation(&mut self, parts: &mut Parts, t: f64) {
@@ -107,7 +95,6 @@ impl Explicit {
 
     fn solve(&mut self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
         self.columns.difference(parts);
-        self.columns.settle(0.0);
         let point = Point::ends(self.history.newest(), self.history.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].predicted();
         self.system
@@ -125,6 +112,70 @@ impl Explicit {
             *value = trial + change;
         }
         check_finite(&self.values, parts, step)
+    }
+}
+
+impl Uncorrected for Explicit {
+    fn multipliers(&self) -> &[f64] {
+        &self.history.newest()[..self.rows]
+    }
+
+    /// Advances with the multipliers of the start, evaluates the end, solves there.
+    fn advance(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Duration, RunError> {
+        parts.prepare_advance(step);
+        // All variables are held: their polynomials have degree 0.
+        let mut over = Over {
+            curves: &Lagrange {
+                history: &self.history,
+                curve: Curve::Extrapolated,
+                length: step.length,
+            },
+            memory: &mut self.memory,
+        };
+        for input in &parts.layout.inputs {
+            let subsystem = &mut parts.subsystems[input.subsystem];
+            input.signal(&mut over, subsystem.advance_signal(input.place));
+        }
+        self.request_evaluation(parts, step.end);
+        exchange(&mut parts.subsystems, step)?;
+        let started = Instant::now();
+        self.solve(parts, step)?;
+        Ok(started.elapsed())
+    }
+
+    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
+        let mut estimate = Estimate::NONE;
+        let layout = &parts.layout;
+        let closing = self.mu.at(step.length).max(step.length);
+        let order = if self.mu.follows_steps() { 3 } else { 1 };
+        self.system
+            .shift(Level::Acceleration, &self.change, &mut self.shift);
+        for (row, (shift, change)) in self
+            .shift
+            .iter()
+            .zip(&self.change)
+            .take(self.rows)
+            .enumerate()
+        {
+            let displaced = 0.5 * closing * closing * shift;
+            let scaled = displaced.abs() / scales.allowed_of_opening(layout, row);
+            estimate.add(scaled, order, Suspect::Opening(row));
+            estimate.change = estimate.change.max(change.abs());
+        }
+        let curves = [self.history.newest(), &self.values];
+        add_exchanged_errors(layout, &self.history, curves, step, scales, &mut estimate);
+        estimate
+    }
+
+    fn move_on(&mut self, step: MacroStep) {
+        self.held
+            .copy_from_slice(&self.history.newest()[..self.rows]);
+        self.take(step.length);
+    }
+
+    /// They are held over the step.
+    fn multipliers_at(&self, _parts: &Parts, _sample: usize, multipliers: &mut [f64]) {
+        multipliers.copy_from_slice(&self.held);
     }
 }
 

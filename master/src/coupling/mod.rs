@@ -9,6 +9,8 @@
 //! * [`position_error`]: errors of positions by those of the multipliers;
 //! * [`error_estimate`]: the error of a macro step against the tolerance;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
+//! * [`uncorrected`]: what a method without a corrector does in a macro step;
+//! * [`unbalanced`]: errors of positions by loads that act on one end of a joint only;
 //! * [`shortfall`]: what corrections with kept columns miss, foreseen;
 //! * [`promise`]: what a correction promises, and what the workers make of it;
 //! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
@@ -31,4 +33,6 @@ pub mod shortfall;
 pub mod solve;
 pub mod springs;
 pub mod system;
+pub mod unbalanced;
+pub mod uncorrected;
 pub mod unknowns;

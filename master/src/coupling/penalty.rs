@@ -3,20 +3,28 @@
 //! A spring and a damper stand in place of every condition `g` of a joint. At each macro point the multiplier is their load,
 //! `lambda = -s (K g + D g')`, with `s` the [`load_power`](crate::joint::Condition::load_power) of the condition, so that a
 //! condition that is open is pulled shut; exchanged variables are what the outputs show, `w = y`. All are extrapolated
-//! over the next step through their past values, and no step is repeated.
+//! over the next step through their past values, and with a fixed macro step none is repeated.
 //!
 //! Jacobi: all subsystems step at once. Gauss-Seidel: one after the other in the order of the scene; the end values of
 //! the coupling variables follow from the outputs of those that have stepped and the extrapolated outputs of the others,
 //! and the inputs are interpolated through them.
+//!
+//! Error of a step: the load `lambda_e` that was used solves the equations exactly for a spring whose ends are displaced by `(lambda_e -
+//! lambda) / K`. The difference at the end of the step is known when the workers have taken it; its mean over the step follows from
+//! the nodes of the extrapolation. With Gauss-Seidel the end that steps later feels another load, and what it feels more is
+//! [unbalanced](super::unbalanced).
 
 use std::ops::Range;
 
 use std::time::Duration;
 
 use super::condition::check_finite;
+use super::error_estimate::{ErrorScales, Estimate, Suspect};
 use super::layout::{Layout, Over, Row};
 use super::system::motion_of;
-use crate::cosimulation::{Outcome, Parts, exchange};
+use super::unbalanced::{Loads, Unbalanced};
+use super::uncorrected::{Uncorrected, add_exchanged_errors, displacement};
+use crate::cosimulation::{Parts, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::scene::{Order, Spring};
@@ -39,6 +47,12 @@ struct Sequence {
     /// At the end of the step: extrapolated until the subsystem has stepped.
     ends: Vec<f64>,
     places: Vec<Range<usize>>,
+    /// For each row the load at the end of the step under which the subsystem at its later end has stepped.
+    later: Vec<f64>,
+    /// Errors of the loads of each row at its ends.
+    errors: Vec<[f64; 2]>,
+    /// Present if steps vary.
+    unbalanced: Option<Unbalanced>,
 }
 
 impl Penalty {
@@ -64,26 +78,6 @@ impl Penalty {
         }
     }
 
-    /// Loads of the springs at the present macro point, one for each row.
-    pub fn multipliers(&self) -> &[f64] {
-        &self.history.newest()[..self.springs.len()]
-    }
-
-    /// One macro step.
-    pub fn macro_step(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Outcome, RunError> {
-        parts.prepare_advance(step);
-        match self.sequence {
-            None => self.all_at_once(parts, step)?,
-            Some(_) => self.one_after_the_other(parts, step)?,
-        }
-        check_finite(&self.ends, parts, step)?;
-        self.history.push(step.length, &self.ends);
-        if let Some(sequence) = &mut self.sequence {
-            sequence.outputs.push(step.length, &sequence.ends);
-        }
-        Ok(Outcome::of_step(step, Duration::ZERO))
-    }
-
     fn all_at_once(&mut self, parts: &mut Parts, step: MacroStep) -> Result<(), RunError> {
         for number in 0..parts.subsystems.len() {
             self.request_advance(parts, number, step);
@@ -102,6 +96,7 @@ impl Penalty {
         }
         for number in 0..parts.subsystems.len() {
             self.request_advance(parts, number, step);
+            self.note_later_loads(&parts.layout, number);
             exchange(&mut parts.subsystems[number..=number], step)?;
             let Some(mut sequence) = self.sequence.take() else {
                 return Ok(());
@@ -135,6 +130,47 @@ impl Penalty {
         }
     }
 
+    /// Adds the errors by what the later end of every joint felt more than the first; the extrapolated variables stand in the memory.
+    fn add_unbalanced(
+        &mut self,
+        parts: &Parts,
+        step: MacroStep,
+        scales: &ErrorScales,
+        estimate: &mut Estimate,
+    ) {
+        let Some(sequence) = &mut self.sequence else {
+            return;
+        };
+        let Some(unbalanced) = &mut sequence.unbalanced else {
+            return;
+        };
+        let mut order = 1;
+        for (row, errors) in sequence.errors.iter_mut().enumerate() {
+            let more = sequence.later[row] - self.memory[row];
+            let miss = self.history.end_miss(row, step.length);
+            errors[later_end(&parts.layout, row)] = miss.mean * more;
+            order = self.history.extrapolation_miss(row, step.length).order;
+        }
+        let loads = Loads {
+            values: &self.ends,
+            attitudes: self.history.attitudes(),
+            errors: &sequence.errors,
+            order,
+        };
+        unbalanced.estimate(parts, step, loads, scales, estimate);
+    }
+
+    fn note_later_loads(&mut self, layout: &Layout, number: usize) {
+        let Some(sequence) = &mut self.sequence else {
+            return;
+        };
+        for (row, later) in sequence.later.iter_mut().enumerate() {
+            if layout.joint_of(row).ends[later_end(layout, row)].subsystem == number {
+                *later = self.ends[row];
+            }
+        }
+    }
+
     /// Takes over the end values of the coupling variables that depend on a subsystem that is `new`.
     fn take<'a>(
         &mut self,
@@ -158,6 +194,80 @@ impl Penalty {
     }
 }
 
+impl Uncorrected for Penalty {
+    /// Loads of the springs, one for each row.
+    fn multipliers(&self) -> &[f64] {
+        &self.history.newest()[..self.springs.len()]
+    }
+
+    fn prepare_estimate(
+        &mut self,
+        parts: &mut Parts,
+        step: MacroStep,
+        scales: &ErrorScales,
+    ) -> Result<(), RunError> {
+        let Some(sequence) = &mut self.sequence else {
+            return Ok(());
+        };
+        let span = scales.span();
+        let unbalanced = &mut sequence.unbalanced;
+        let unbalanced = unbalanced.get_or_insert_with(|| Unbalanced::new(parts, span));
+        let history = &self.history;
+        unbalanced.measure(parts, step, scales, |input| {
+            input.value(history.newest(), history.attitudes())
+        })
+    }
+
+    fn advance(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Duration, RunError> {
+        parts.prepare_advance(step);
+        match self.sequence {
+            None => self.all_at_once(parts, step)?,
+            Some(_) => self.one_after_the_other(parts, step)?,
+        }
+        check_finite(&self.ends, parts, step)?;
+        Ok(Duration::ZERO)
+    }
+
+    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
+        let mut estimate = Estimate::NONE;
+        let layout = &parts.layout;
+        extrapolate(&self.history, step, &mut self.memory);
+        for (row, spring) in self.springs.iter().enumerate() {
+            let miss = self.history.extrapolation_miss(row, step.length);
+            let change = self.ends[row] - self.memory[row];
+            let displaced = displacement(spring, miss.mean * change, scales.span());
+            let scaled = displaced.abs() / scales.allowed_of_opening(layout, row);
+            estimate.add(scaled, miss.order, Suspect::Opening(row));
+            estimate.change = estimate.change.max(change.abs());
+        }
+        let curves = [&self.memory[..], &self.ends];
+        add_exchanged_errors(layout, &self.history, curves, step, scales, &mut estimate);
+        self.add_unbalanced(parts, step, scales, &mut estimate);
+        estimate
+    }
+
+    fn move_on(&mut self, step: MacroStep) {
+        self.history.push(step.length, &self.ends);
+        if let Some(sequence) = &mut self.sequence {
+            sequence.outputs.push(step.length, &sequence.ends);
+            if let Some(unbalanced) = &mut sequence.unbalanced {
+                unbalanced.move_on(step.length);
+            }
+        }
+    }
+
+    fn multipliers_at(&self, parts: &Parts, sample: usize, multipliers: &mut [f64]) {
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].sample(sample);
+        write_loads(&self.springs, &parts.layout, outputs, multipliers);
+    }
+}
+
+/// Which end of a row's joint belongs to the subsystem that steps later.
+fn later_end(layout: &Layout, row: usize) -> usize {
+    let [a, b] = &layout.joint_of(row).ends;
+    usize::from(b.subsystem > a.subsystem)
+}
+
 impl Sequence {
     fn new(degree: usize, parts: &Parts) -> Self {
         let mut newest = Vec::new();
@@ -175,15 +285,22 @@ impl Sequence {
             outputs: History::new(variables, &newest, Vec::new()),
             ends: newest,
             places,
+            later: vec![0.0; parts.layout.rows.len()],
+            errors: vec![[0.0; 2]; parts.layout.rows.len()],
+            unbalanced: None,
         }
     }
 }
 
-/// Writes the loads of the springs under the present outputs, one for each row, in front of `values`.
-pub fn write_loads(springs: &[Spring], parts: &Parts, values: &mut [f64]) {
-    let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
+/// Writes the loads of the springs under these outputs of all subsystems, one for each row, in front of `values`.
+pub fn write_loads<'a>(
+    springs: &[Spring],
+    layout: &Layout,
+    outputs: impl Fn(usize) -> &'a [f64] + Copy,
+    values: &mut [f64],
+) {
     for (row, (spring, value)) in springs.iter().zip(values).enumerate() {
-        *value = spring_load(&parts.layout, row, spring, outputs);
+        *value = spring_load(layout, row, spring, outputs);
     }
 }
 

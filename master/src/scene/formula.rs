@@ -106,6 +106,11 @@ impl Formula {
         self.factor
     }
 
+    /// Whether it is a multiple of the macro step.
+    pub fn follows_steps(self) -> bool {
+        self.unit != Unit::Plain
+    }
+
     /// The value for a macro step in s.
     pub fn at(self, macro_step: f64) -> f64 {
         match self.unit {

@@ -12,4 +12,4 @@ pub mod interpolation_error;
 
 pub use curves::{Curves, Lagrange};
 pub use history::{Curve, History, MAX_DEGREE, Variables, combine, vector_at};
-pub use interpolation_error::ErrorShares;
+pub use interpolation_error::{ErrorShares, ExtrapolationMiss};

@@ -27,20 +27,3 @@ fn a_least_step_that_is_too_long_is_told_with_place_and_variable() {
         assert!(error.contains(part), "{part}: {error}");
     }
 }
-
-#[test]
-fn methods_without_corrector_have_no_variable_step() {
-    for coupling in [
-        "method=explicit degree=0 mu=10H",
-        "method=jacobi stiffness=1e6",
-    ] {
-        let error = refusal(coupling);
-        for part in [
-            "coupling.tolerance",
-            "explicit, penalty, jacobi and gauss-seidel",
-            "coupling.method = \"hermite\"",
-        ] {
-            assert!(error.contains(part), "{part}: {error}");
-        }
-    }
-}
