@@ -312,6 +312,7 @@ impl Corrector for Hermite {
         self.wants_start = self.variant.starts_anew() && !self.continues;
         self.before.copy_from(&self.arcs);
         self.arcs.move_on(self.sample.ends(), &self.accelerations);
+        self.measure.move_on();
         self.read_starts();
     }
 
