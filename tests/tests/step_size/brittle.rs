@@ -164,15 +164,16 @@ fn run_with(
         })
     };
     let mut simulation = CoSimulation::start(scene, &mut connect, options)?;
+    let mut columns = simulation.row().columns().iter();
+    let step = columns.position(|name| name == "step").unwrap_or_default();
     let mut ended = Ended {
         rows: vec![simulation.row().values().to_vec()],
         steps: Vec::new(),
         statistics: simulation.statistics(),
     };
     while !simulation.is_finished() {
-        let before = simulation.t();
         simulation.macro_step()?;
-        ended.steps.push(simulation.t() - before);
+        ended.steps.push(simulation.row().values()[step]);
         ended.rows.push(simulation.row().values().to_vec());
     }
     ended.statistics = simulation.statistics();
