@@ -1,7 +1,6 @@
 //! Why a run ends without a result.
 
 use linchpin_proto::contract::CallError;
-use linchpin_proto::v1::Severity;
 use linchpin_proto::version::Incompatible;
 
 use crate::connection::{LastWords, StartError};
@@ -125,8 +124,8 @@ pub enum RunError {
     /// The corrections of a macro step do not come to an end.
     #[error(
         "the corrections do not converge at t = {t} s (H = {step} s): after {passes} passes {unknown} still changes by \
-         {change:.1e} of its size, allowed is {tolerance:e}; each pass leaves {rate:.2e} of the change before; try a smaller \
-         coupling.macro_step, more passes (coupling.iterations.most), a larger coupling.iterations.tolerance, or \
+         {change:.1e} of its size, allowed is {tolerance:e}; each pass leaves {rate:.2e} of the change before; try {remedy}, \
+         more passes (coupling.iterations.most), a larger coupling.iterations.tolerance, or \
          coupling.iterations.otherwise = \"warn\""
     )]
     NotConverged {
@@ -144,7 +143,15 @@ pub enum RunError {
         passes: u32,
         /// Last change over the one before.
         rate: f64,
+        /// What shortens the step.
+        remedy: &'static str,
     },
+    /// A failure that shorter macro steps have not cured.
+    #[error(
+        "{0}\n  help: this H is coupling.least_step, and longer macro steps have failed as well; a smaller coupling.least_step helps only if \
+         the cause goes with H"
+    )]
+    NoShorterStep(Box<RunError>),
     /// No step is short enough.
     #[error(
         "no macro step from t = {t} s is short enough: with H = {step} s, which is coupling.least_step, the error of {variable} is \
@@ -184,9 +191,7 @@ pub enum RunError {
 
 fn advice(error: &CallError) -> &'static str {
     match error {
-        CallError::Failed(failure) if failure.severity() == Severity::Recoverable => {
-            "\n  help: a smaller coupling.macro_step may help"
-        }
+        error if error.is_recoverable() => "\n  help: a smaller coupling.macro_step may help",
         CallError::Deadline { .. } => {
             "\n  help: the worker hangs, or its step takes longer: run.deadline gives it more time"
         }

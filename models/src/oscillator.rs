@@ -2,7 +2,7 @@
 //! `m v' = -c x - d v + f + k_p (x_p - x) + d_p (v_p - v)`, `x' = v`.
 //!
 //! `f` is an applied force; `x_p`, `v_p` are the motion of a partner behind a spring `k_p` and a damper `d_p`, for
-//! force/displacement coupling.
+//! force/displacement coupling. From a time on, a constant load may act on the mass as well.
 
 mod description;
 mod equation;
@@ -20,7 +20,7 @@ use crate::mechanics::solvers;
 use equation::Equation;
 use exact::Exact;
 
-pub use parameters::{OscillatorParameters, PartnerSpring};
+pub use parameters::{LoadStep, OscillatorParameters, PartnerSpring};
 
 /// One mass on a spring and a damper (S1 Sect. 2).
 #[derive(Debug, Clone, Copy, Default)]
@@ -33,7 +33,8 @@ impl Model for Oscillator {
 
     fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
         let own = OscillatorParameters::from_setup(setup)?;
-        let equation = Equation::new(own, PartnerSpring::from_setup(setup)?);
+        let partner = PartnerSpring::from_setup(setup)?;
+        let equation = Equation::new(own, partner, LoadStep::from_setup(setup)?);
         let start = [own.x0, own.v0];
         match setup.solver() {
             description::EXACT => {

@@ -22,15 +22,15 @@ fn two_masses_start_with_the_multiplier_of_the_paper() {
     let default = [mass(1.0, 1e3, 10.0), mass(2.0, 1e3, 10.0)];
     let linked = LinkedOscillators::new(&default, &[(0, 1)]).unwrap();
     let start = linked.motion(0.0);
-    assert!((linked.multiplier(0, &start).unwrap() - 1e3 / 3.0).abs() < 1e-10);
-    assert_eq!(linked.multiplier(1, &start), None);
+    assert!((linked.multiplier(0, 0.0, &start).unwrap() - 1e3 / 3.0).abs() < 1e-10);
+    assert_eq!(linked.multiplier(1, 0.0, &start), None);
 
     let [m1, m2, c1, c2, d1, d2, x0, v0] = [0.7, 2.9, 130.0, 11.0, 0.3, 4.1, 0.13, -1.9];
     let masses =
         [(m1, c1, d1), (m2, c2, d2)].map(|(m, c, d)| OscillatorParameters { m, c, d, x0, v0 });
     let linked = LinkedOscillators::new(&masses, &[(0, 1)]).unwrap();
     let expected = m1 * m2 / (m1 + m2) * ((c1 / m1 - c2 / m2) * x0 + (d1 / m1 - d2 / m2) * v0);
-    let lambda = linked.multiplier(0, &linked.motion(0.0)).unwrap();
+    let lambda = linked.multiplier(0, 0.0, &linked.motion(0.0)).unwrap();
     assert!(
         (lambda / expected - 1.0).abs() < 1e-13,
         "{lambda} {expected}"
@@ -44,8 +44,8 @@ fn a_link_the_other_way_round_has_the_opposite_multiplier() {
     let back = LinkedOscillators::new(&masses, &[(1, 0)]).unwrap();
     let motion = forth.motion(0.137);
     assert_eq!(
-        forth.multiplier(0, &motion).map(|lambda| -lambda),
-        back.multiplier(0, &motion)
+        forth.multiplier(0, 0.137, &motion).map(|lambda| -lambda),
+        back.multiplier(0, 0.137, &motion)
     );
 }
 
@@ -145,7 +145,7 @@ proptest! {
         for (own, parameters) in masses.iter().enumerate() {
             let spring = -parameters.c * motion.x - parameters.d * motion.v;
             let force = links.iter().enumerate().fold(spring, |force, (link, &(a, b))| {
-                let lambda = linked.multiplier(link, &motion).unwrap();
+                let lambda = linked.multiplier(link, t, &motion).unwrap();
                 force + if a == own { lambda } else if b == own { -lambda } else { 0.0 }
             });
             let size = 1.0 + 1e4 * motion.x.abs() + 50.0 * motion.v.abs();

@@ -69,6 +69,13 @@ pub enum CallError {
     },
 }
 
+impl CallError {
+    /// Whether the worker says that a smaller step may help.
+    pub fn is_recoverable(&self) -> bool {
+        matches!(self, Self::Failed(failure) if failure.severity() == Severity::Recoverable)
+    }
+}
+
 impl Failure {
     /// A wrong request: `field` is what must change.
     pub fn misuse(field: impl Into<String>, message: impl Into<String>) -> Self {

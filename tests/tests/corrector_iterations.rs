@@ -122,23 +122,106 @@ fn a_pass_changes_nothing_where_all_is_linear() {
 
 #[test]
 fn passes_have_equal_bits_on_every_way_to_a_worker() {
-    let coupling = "method=weighted degree=1 macro_step=1e-2 iterations={most=6,tolerance=1e-10}";
-    let scene = |others: &[&str]| {
-        with_settings(
-            DOUBLE_PENDULUM,
-            coupling,
-            &[&["scene.t_end=0.3"], others].concat(),
+    for method in [
+        "method=weighted degree=1 macro_step=1e-2",
+        "method=hermite macro_step=4e-2",
+        "method=hermite jacobian=every-step macro_step=4e-2",
+        "method=weighted degree=1 tolerance=1e-3",
+    ] {
+        let otherwise = match method.contains("tolerance") {
+            true => "reject",
+            false => "warn",
+        };
+        let iterations = format!("iterations={{most=3,tolerance=1e-10,otherwise=\"{otherwise}\"}}");
+        let coupling = format!("{method} {iterations}");
+        let scene = |others: &[&str]| {
+            with_settings(
+                DOUBLE_PENDULUM,
+                &coupling,
+                &[&["scene.t_end=0.3"], others].concat(),
+            )
+        };
+        let expected = run(&scene(&[]), Place::InProcess);
+        assert!(expected.statistics.corrections.passes > 0, "{coupling}");
+        let unary = scene(&["subsystem.*.calls=unary"]);
+        for (scene, place) in [
+            (&scene(&[]), Place::Threads),
+            (&unary, Place::InProcess),
+            (&unary, Place::Threads),
+        ] {
+            assert!(run(scene, place).bits() == expected.bits(), "{coupling}");
+        }
+    }
+}
+
+/// Hermite coupling demands closed joints on position level: what is left falls with every pass by the rate, down to rounding.
+#[test]
+fn passes_of_hermite_coupling_close_the_joints() {
+    for jacobian in ["every-step", "reuse"] {
+        let largest_residual = |passes: usize| {
+            let coupling = format!(
+                "method=hermite jacobian={jacobian} macro_step=5e-2 iterations={{most={passes},tolerance=1e-13}}"
+            );
+            let run = run(&mechanism(DOUBLE_PENDULUM, &coupling), Place::InProcess);
+            let residual = largest(&run, "hinge.residual.position.x");
+            (residual, run.statistics.corrections.slowest_rate)
+        };
+        let (once, rate) = largest_residual(1);
+        let (twice, _) = largest_residual(2);
+        let (often, _) = largest_residual(12);
+        let context = format!("{jacobian}: {once:e} {twice:e} {often:e}, rate {rate}");
+        assert!(rate > 0.0 && rate < 0.5, "{context}");
+        assert!(twice < 3.0 * rate * once && twice < 0.3 * once, "{context}");
+        assert!(often < 1e-11, "{context}");
+    }
+}
+
+/// A rejected step leaves no trace, and every step that is taken has converged.
+#[test]
+fn a_step_that_does_not_converge_is_repeated_where_steps_vary() {
+    let coupling = |least: &str| {
+        format!(
+            "method=weighted a=2 b=2.6 degree=1 tolerance=1e-2 macro_step=2e-2 {least} \
+             iterations={{most=2,tolerance=1e-9,otherwise=\"reject\"}}"
         )
     };
-    let expected = run(&scene(&[]), Place::InProcess);
-    assert!(expected.statistics.corrections.passes > 0);
-    let unary = scene(&["subsystem.*.calls=unary"]);
-    for (scene, place) in [
-        (&scene(&[]), Place::Threads),
-        (&unary, Place::InProcess),
-        (&unary, Place::Threads),
+    let scene = mechanism(DOUBLE_PENDULUM, &coupling(""));
+    let found = run(&scene, Place::InProcess);
+    let steps = found.statistics.steps.unwrap();
+    assert!(steps.rejected_by_cause.not_converged > 0, "{steps:?}");
+    assert_eq!(found.statistics.corrections.unconverged, 0);
+    assert!(steps.rejected < found.rows.len() as u64 / 4, "{steps:?}");
+    let options = Options {
+        step_lengths: Some(found.column("step")[1..].to_vec()),
+        ..Options::default()
+    };
+    let expected = try_run(&scene, Place::InProcess, &options).unwrap();
+    assert!(found.bits() == expected.bits());
+    let scene = mechanism(DOUBLE_PENDULUM, &coupling("least_step=1e-2"));
+    let error = try_run(&scene, Place::InProcess, &Options::default()).unwrap_err();
+    let shown = error.to_string();
+    assert!(
+        matches!(error, RunError::NotConverged { step: 1e-2, .. }),
+        "{shown}"
+    );
+    for part in ["smaller coupling.least_step", "coupling.iterations.most"] {
+        assert!(shown.contains(part), "{shown}");
+    }
+}
+
+#[test]
+fn a_fixed_step_cannot_be_rejected() {
+    let setting = "iterations = { otherwise = \"reject\" }";
+    let text = DOUBLE_PENDULUM.replacen("macro_step", &format!("{setting}\nmacro_step"), 1);
+    let error = parse(&text, "scene.toml", &[]).unwrap_err().to_string();
+    let line = text.lines().position(|line| line == setting).unwrap() + 1;
+    for part in [
+        "`coupling.iterations.otherwise`",
+        "\"fail\" are allowed",
+        "give coupling.tolerance",
+        &format!("scene.toml:{line}:"),
     ] {
-        assert!(run(scene, place).bits() == expected.bits());
+        assert!(error.contains(part), "{part}: {error}");
     }
 }
 
@@ -186,7 +269,7 @@ fn mistakes_in_the_settings_are_told() {
     for (setting, part) in [
         ("iterations = { most = 0 }", "most"),
         ("iterations = { tolerance = -1.0 }", "tolerance"),
-        ("iterations = { otherwise = \"reject\" }", "warn"),
+        ("iterations = { otherwise = \"repeat\" }", "warn"),
         ("iterations = { many = 3 }", "many"),
         ("iterations = 3", "iterations"),
         ("jacobian = \"seldom\"", "reuse"),

@@ -59,7 +59,7 @@ fn scenes() -> Vec<(String, Scene)> {
     scenes.retain(|(_, scene)| !scene.joints.is_empty());
     // Workers that other machines serve are not there. The long chain is at rounding: its corrections do not converge with
     // new columns either.
-    scenes.retain(|(name, _)| name != "oscillator-compose" && name != "64");
+    scenes.retain(|(name, _)| name != "oscillator-compose");
     scenes
 }
 

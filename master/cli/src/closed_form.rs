@@ -2,7 +2,7 @@
 
 use linchpin_master::scene::{Scene, Served, Subsystem};
 use linchpin_models::models;
-use linchpin_models::oscillator::OscillatorParameters;
+use linchpin_models::oscillator::{LoadStep, OscillatorParameters};
 use linchpin_models::reference::LinkedOscillators;
 use linchpin_worker::Setup;
 
@@ -31,18 +31,19 @@ pub enum Quantity {
 impl ClosedForm {
     /// The closed form of `scene`, if all its subsystems are built-in oscillators that the joints link to a tree.
     pub fn of(scene: &Scene) -> Option<Self> {
-        let masses = scene
+        let parameters = scene
             .subsystems
             .iter()
-            .map(parameters)
+            .map(|subsystem| parameters(subsystem, scene.t_start))
             .collect::<Option<Vec<_>>>()?;
+        let (masses, loads): (Vec<_>, Vec<_>) = parameters.into_iter().unzip();
         let links: Vec<_> = scene
             .joints
             .iter()
             .map(|joint| (joint.a.subsystem, joint.b.subsystem))
             .collect();
         Some(Self {
-            solution: LinkedOscillators::new(&masses, &links).ok()?,
+            solution: LinkedOscillators::loaded(&masses, &links, &loads).ok()?,
             t_start: scene.t_start,
             subsystems: scene
                 .subsystems
@@ -80,17 +81,19 @@ impl ClosedForm {
 
     /// The exact value at time `t`; `None` for a joint that does not exist.
     pub fn value(&self, quantity: Quantity, t: f64) -> Option<f64> {
-        let motion = self.solution.motion(t - self.t_start);
+        let elapsed = t - self.t_start;
+        let motion = self.solution.motion(elapsed);
         match quantity {
             Quantity::Position => Some(motion.x),
             Quantity::Velocity => Some(motion.v),
             Quantity::Acceleration => Some(motion.a),
-            Quantity::Multiplier(joint) => self.solution.multiplier(joint, &motion),
+            Quantity::Multiplier(joint) => self.solution.multiplier(joint, elapsed, &motion),
         }
     }
 }
 
-fn parameters(subsystem: &Subsystem) -> Option<OscillatorParameters> {
+/// The mass and its load, whose time counts from the start of the scene.
+fn parameters(subsystem: &Subsystem, t_start: f64) -> Option<(OscillatorParameters, LoadStep)> {
     if subsystem.served != Served::BuiltIn || subsystem.model.as_deref() != Some("oscillator") {
         return None;
     }
@@ -111,8 +114,11 @@ fn parameters(subsystem: &Subsystem) -> Option<OscillatorParameters> {
     let is_bound = setup.parameter("partner_stiffness").ok()? != 0.0
         || setup.parameter("partner_damping").ok()? != 0.0;
     if is_bound {
-        None
-    } else {
-        OscillatorParameters::from_setup(&setup).ok()
+        return None;
     }
+    let load = LoadStep::from_setup(&setup).ok()?;
+    // A load that acts from before the start acts from the start on.
+    let from = (load.from - t_start).max(0.0);
+    let own = OscillatorParameters::from_setup(&setup).ok()?;
+    Some((own, LoadStep { from, ..load }))
 }

@@ -2,32 +2,37 @@
 
 use std::time::{Duration, Instant};
 
+use super::obstacle::Obstacle;
 use super::renewal::{Renewal, last_change};
-use super::step_size::{Judgement, StepSize};
-use super::{Outcome, Parts, exchange};
+use super::step_size::StepSize;
+use super::{Outcome, Parts, exchange, recovery};
 use crate::coupling::corrector::Corrector;
+use crate::coupling::error_estimate::Estimate;
 use crate::error::RunError;
 use crate::time::{MacroStep, TimePlan};
 
 /// The present macro step of `plan`, and in the same exchange as its advance the look-ahead over the following one.
 ///
-/// The prediction over the step, with its perturbed steps, came with the exchange before. Where steps vary, a step that is too
-/// long is repeated by another look-ahead before any worker has taken it.
+/// The prediction over the step, with its perturbed steps, came with the exchange before. Where steps vary, a step that meets an
+/// obstacle is repeated by another look-ahead, shorter, before any worker has taken it.
 pub(super) fn macro_step(
     method: &mut dyn Corrector,
     parts: &mut Parts,
     renewal: &mut Renewal,
     plan: &mut TimePlan,
     first: MacroStep,
-    step_size: Option<&mut StepSize>,
+    mut step_size: Option<&mut StepSize>,
 ) -> Result<Outcome, RunError> {
-    let mut outcome = Outcome::of_step(first, correct(method, parts, first)?);
+    let mut outcome = Outcome::of_step(first, Duration::ZERO);
     let mut wish = first.length;
-    if let Some(step_size) = step_size {
-        repeat_until_accepted(method, parts, renewal, plan, step_size, &mut outcome)?;
-        wish = step_size.wish();
+    match &mut step_size {
+        Some(step_size) => {
+            wish = repeat_until_accepted(method, parts, renewal, plan, step_size, &mut outcome)?;
+        }
+        None => {
+            attempt(method, parts, renewal, None, &mut outcome)?;
+        }
     }
-    correct_again(method, parts, renewal, &mut outcome)?;
     let step = outcome.step;
     parts.prepare_advance(step);
     method.request_advance(parts, step);
@@ -40,30 +45,76 @@ pub(super) fn macro_step(
         }
         None => parts.forgo_prediction(),
     }
-    exchange(&mut parts.subsystems, step)?;
+    match step_size {
+        None => exchange(&mut parts.subsystems, step)?,
+        Some(step_size) => {
+            step_size.keep_refusal(recovery::advance(&mut parts.subsystems, step)?);
+        }
+    }
     plan.move_on(following);
     outcome.verdict = method.judge(parts);
     outcome.passes = renewal.finish(method, parts);
     Ok(outcome)
 }
 
-/// Corrects as often as columns of earlier steps or the scene demand it.
-fn correct_again(
+/// Shortens the step until nothing stands against it; the length of the next one.
+fn repeat_until_accepted(
     method: &mut dyn Corrector,
     parts: &mut Parts,
     renewal: &mut Renewal,
+    plan: &mut TimePlan,
+    step_size: &mut StepSize,
     outcome: &mut Outcome,
-) -> Result<(), RunError> {
+) -> Result<f64, RunError> {
+    loop {
+        let before = *renewal;
+        match attempt(method, parts, renewal, Some(step_size), outcome) {
+            Ok(estimate) => return Ok(step_size.accept(outcome.step, &estimate)),
+            Err(obstacle) => {
+                let repetition = step_size.repeat(outcome.step, obstacle)?;
+                if repetition.has_jumped {
+                    method.restart();
+                }
+                outcome.step = plan.shorten(repetition.length);
+                *renewal = before;
+                let with_columns = renewal.wants_columns(method, outcome.step);
+                let ahead = (outcome.step, with_columns);
+                look_ahead(method, parts, ahead, Some(step_size))?;
+            }
+        }
+    }
+}
+
+/// Corrects the step as often as it takes, from the answers to the look-ahead over it. Where steps vary its error must be small enough
+/// at the first correction: later ones change what the error belongs to, and cost exchanges.
+fn attempt(
+    method: &mut dyn Corrector,
+    parts: &mut Parts,
+    renewal: &mut Renewal,
+    step_size: Option<&mut StepSize>,
+    outcome: &mut Outcome,
+) -> Result<Estimate, Obstacle> {
     let step = outcome.step;
+    let mut estimate = Estimate::NONE;
+    let varies = step_size.is_some();
+    if let Some(step_size) = step_size {
+        step_size.check_answered()?;
+        outcome.solving += correct(method, parts, step)?;
+        estimate = method.error_estimate(parts, step, step_size.scales());
+        step_size.check_error(step, &estimate, parts)?;
+    } else {
+        outcome.solving += correct(method, parts, step)?;
+    }
     renewal.begin(method);
     while let Some(with_columns) = renewal.next_pass() {
         let Some(again) = method.again() else { break };
         again.request_pass(parts, step, with_columns);
-        exchange(&mut parts.subsystems, step)?;
+        look(parts, step, varies)?;
         outcome.solving += correct(method, parts, step)?;
         renewal.note_pass(last_change(method), with_columns);
     }
-    renewal.refuse(parts, step)
+    renewal.check(parts, step)?;
+    Ok(estimate)
 }
 
 /// Corrects, and gives the time that it took.
@@ -77,38 +128,30 @@ fn correct(
     Ok(started.elapsed())
 }
 
-fn repeat_until_accepted(
-    method: &mut dyn Corrector,
-    parts: &mut Parts,
-    renewal: &mut Renewal,
-    plan: &mut TimePlan,
-    step_size: &mut StepSize,
-    outcome: &mut Outcome,
-) -> Result<(), RunError> {
-    loop {
-        let estimate = method.error_estimate(parts, outcome.step, step_size.scales());
-        let judgement = step_size.judge(outcome.step, &estimate, parts)?;
-        let Judgement::Repeat { length, has_jumped } = judgement else {
-            return Ok(());
-        };
-        if has_jumped {
-            method.restart();
-        }
-        outcome.step = plan.shorten(length);
-        let with_columns = renewal.wants_columns(method, outcome.step);
-        look_ahead(method, parts, outcome.step, with_columns)?;
-        outcome.solving += correct(method, parts, outcome.step)?;
-    }
-}
-
-/// A look-ahead from the present macro point, with no advance before it.
+/// A look-ahead from the present macro point over a step, with new columns or without, and no advance before it. Where steps vary the
+/// next attempt at the step learns what has become of it.
 pub(super) fn look_ahead(
     method: &mut dyn Corrector,
     parts: &mut Parts,
-    step: MacroStep,
-    with_columns: bool,
+    (step, with_columns): (MacroStep, bool),
+    step_size: Option<&mut StepSize>,
 ) -> Result<(), RunError> {
     parts.forgo_advance();
-    method.request_prediction(parts, step, with_columns)?;
-    exchange(&mut parts.subsystems, step)
+    let varies = step_size.is_some();
+    let requested = method.request_prediction(parts, step, with_columns);
+    let looked = requested.and_then(|()| look(parts, step, varies));
+    match (looked, step_size) {
+        (Err(error), Some(step_size)) if error.may_vanish_with_a_shorter_step() => {
+            step_size.keep_refusal(Some(error));
+            Ok(())
+        }
+        (looked, _) => looked,
+    }
+}
+
+fn look(parts: &mut Parts, step: MacroStep, varies: bool) -> Result<(), RunError> {
+    match varies {
+        true => recovery::look(&mut parts.subsystems, step),
+        false => exchange(&mut parts.subsystems, step),
+    }
 }

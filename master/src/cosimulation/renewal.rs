@@ -1,6 +1,7 @@
 //! How often a macro step is corrected, and when the columns of the coupling Jacobian are asked for afresh.
 
 use super::Parts;
+use super::obstacle::{Kind, Obstacle};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::measure::Change;
 use crate::error::RunError;
@@ -31,6 +32,7 @@ const MOST_PASSES: u32 = 8;
 /// With columns of an earlier step a correction misses its aim by a share, the *rate*. A pass looks ahead over the same step with the
 /// corrected inputs and corrects what is left, so that the result is the one of new columns; it takes one integration
 /// of each subsystem, where columns take one for each input.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Renewal {
     rule: Jacobian,
     iterations: Option<Iterations>,
@@ -90,7 +92,7 @@ impl Renewal {
         wanted
     }
 
-    /// After the first correction of a step that is accepted.
+    /// After the first correction of a step whose error is small enough.
     pub fn begin(&mut self, method: &mut dyn Corrector) {
         let continues = method.again().is_some_and(|again| again.accept());
         let change = last_change(method);
@@ -150,24 +152,35 @@ impl Renewal {
         }
     }
 
-    /// Refuses a step that has not converged, if the scene says so.
-    pub fn refuse(&self, parts: &Parts, step: MacroStep) -> Result<(), RunError> {
-        match self.iterations {
-            Some(iterations)
-                if self.passes.is_unconverged && iterations.otherwise == Otherwise::Fail =>
-            {
-                let change = self.last;
-                Err(RunError::NotConverged {
-                    t: step.start,
-                    step: step.length,
-                    unknown: parts.layout.variable_name(change.variable),
-                    change: change.of_size,
-                    tolerance: iterations.tolerance,
-                    passes: self.passes.count,
-                    rate: self.passes.rate.unwrap_or(f64::NAN),
+    /// After the last correction: whether the step is taken as it is, by the rule of the scene.
+    pub fn check(&self, parts: &Parts, step: MacroStep) -> Result<(), Obstacle> {
+        let Some(iterations) = self.iterations.filter(|_| self.passes.is_unconverged) else {
+            return Ok(());
+        };
+        let change = self.last;
+        let passes = self.passes.count;
+        let rate = self.passes.rate.unwrap_or(f64::NAN);
+        let error = || RunError::NotConverged {
+            t: step.start,
+            step: step.length,
+            unknown: parts.layout.variable_name(change.variable),
+            change: change.of_size,
+            tolerance: iterations.tolerance,
+            passes,
+            rate,
+            remedy: "a smaller coupling.macro_step",
+        };
+        match iterations.otherwise {
+            Otherwise::Warn => Ok(()),
+            Otherwise::Fail => Err(error().into()),
+            Otherwise::Reject => {
+                // The rate falls at least with H, and the last change with its power.
+                let share = (iterations.tolerance / change.of_size).powf(1.0 / f64::from(passes));
+                Err(Obstacle {
+                    kind: Kind::NotConverged((rate < 1.0).then_some(share)),
+                    error: Box::new(error()),
                 })
             }
-            _ => Ok(()),
         }
     }
 

@@ -10,7 +10,7 @@ use super::mechanism::Mechanism;
 use super::refusal::{Refusals, refuse_setup};
 use super::renewal::Renewal;
 use super::samples::Samples;
-use super::step_size::{plan_of, step_size_of};
+use super::step_size::{StepSize, plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
@@ -105,8 +105,9 @@ impl CoSimulation {
         let initial = initial_state(scene, &coupled, &parts, options)?;
         initial.read_outputs(scene.t_start, &mut parts)?;
         let plan = plan_of(scene, options);
-        let step_size = step_size_of(scene, options, &parts);
-        let scheme = begin(scene, options, initial, &mut parts, &plan)?;
+        let mut step_size = step_size_of(scene, options, &parts);
+        let steps = (&plan, step_size.as_mut());
+        let scheme = begin(scene, options, initial, &mut parts, steps)?;
         let mut row = Row::new(&parts, scene.coupling.step_control.is_some());
         row.read(super::at_start(scene.t_start), &parts, scheme.multipliers());
         panels::check(scene, &row)?;
@@ -308,7 +309,7 @@ fn begin(
     options: &Options,
     initial: InitialState,
     parts: &mut Parts,
-    plan: &TimePlan,
+    (plan, step_size): (&TimePlan, Option<&mut StepSize>),
 ) -> Result<Scheme, RunError> {
     let coupling = &scene.coupling;
     let InitialState {
@@ -333,7 +334,7 @@ fn begin(
             let values = start.map_or(&values[..variables.degrees.len()], |start| start);
             let history = History::new(variables, values, attitudes);
             let method = Hermite::new(variant, coupling.increment, history, parts);
-            return begin_corrected(Box::new(method), parts, plan);
+            return begin_corrected(Box::new(method), parts, plan, step_size);
         }
         Method::Explicit { mu } => {
             let history = History::new(variables, &values, attitudes);
@@ -372,7 +373,7 @@ fn begin(
     };
     let history = history_of(scene, options, variables, &values, attitudes);
     let method = SemiImplicit::new(condition, coupling.increment, history, parts);
-    begin_corrected(Box::new(method), parts, plan)
+    begin_corrected(Box::new(method), parts, plan, step_size)
 }
 
 /// Lets a predictor/corrector method look ahead over the first macro step.
@@ -380,8 +381,10 @@ fn begin_corrected(
     mut method: Box<dyn Corrector>,
     parts: &mut Parts,
     plan: &TimePlan,
+    step_size: Option<&mut StepSize>,
 ) -> Result<Scheme, RunError> {
-    look_ahead(&mut *method, parts, first_step(plan), true)?;
+    let first = first_step(plan);
+    look_ahead(&mut *method, parts, (first, true), step_size)?;
     Ok(Scheme::Corrected(method))
 }
 

@@ -1,5 +1,6 @@
 //! The length of a variable macro step: accepted or repeated, and how long the next one is.
 
+use super::obstacle::{Kind, Obstacle};
 use crate::cosimulation::{Options, Parts};
 use crate::coupling::error_estimate::{ErrorScales, Estimate};
 use crate::error::RunError;
@@ -39,17 +40,31 @@ const LENGTHS_PER_OCTAVE: f64 = 8.0;
 /// Smallest scaled error that the controller remembers.
 const LEAST_ERROR: f64 = 1e-4;
 
+/// Share of a step whose corrections do not converge, at a rate that does not tell by how much it is too long.
+const DIVERGED: f64 = 0.5;
+
+/// Share of a step that a worker could not take.
+const FAILED: f64 = 0.25;
+
+/// Accepted steps after a failure that stay below the length that failed: the error says nothing of failures.
+const CAREFUL_STEPS: u32 = 20;
+
 /// Chooses the lengths of the macro steps.
 pub struct StepSize {
     control: StepControl,
     scales: ErrorScales,
     /// Length of the first step in s.
     first: f64,
-    wish: f64,
     /// Scaled error of the last accepted step.
     before: f64,
-    /// The last attempt at the present step.
+    /// Whether the present step is a repeated one.
+    is_repeated: bool,
+    /// The last attempt at the present step whose error was too large.
     rejected: Option<Rejected>,
+    /// What has become of the look-ahead over the present step, if not its answer.
+    refusal: Option<RunError>,
+    /// Length that steps do not exceed, and how many more of them.
+    careful: Option<(f64, u32)>,
     statistics: StepStatistics,
 }
 
@@ -59,18 +74,13 @@ struct Rejected {
     change: f64,
 }
 
-/// What becomes of a step.
+/// How a step is repeated.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Judgement {
-    /// It stays.
-    Accepted,
-    /// It is repeated.
-    Repeat {
-        /// With this length.
-        length: f64,
-        /// Whether the solution has jumped, so that what lies before the step says nothing about it.
-        has_jumped: bool,
-    },
+pub(super) struct Repetition {
+    /// With this length in s.
+    pub length: f64,
+    /// Whether the solution has jumped, so that what lies before the step says nothing about it.
+    pub has_jumped: bool,
 }
 
 impl StepSize {
@@ -80,9 +90,11 @@ impl StepSize {
             scales: ErrorScales::new(&control, span, parts),
             control,
             first,
-            wish: first,
             before: 1.0,
+            is_repeated: false,
             rejected: None,
+            refusal: None,
+            careful: None,
             statistics: StepStatistics::default(),
         }
     }
@@ -92,68 +104,119 @@ impl StepSize {
         &self.scales
     }
 
-    /// Length of the next step in s.
-    pub fn wish(&self) -> f64 {
-        self.wish
-    }
-
     /// Steps so far.
     pub fn statistics(&self) -> &StepStatistics {
         &self.statistics
     }
 
-    /// Accepts the step or says how long its repetition is.
-    pub fn judge(
-        &mut self,
+    /// Keeps what has become of the look-ahead over the next step until that step is attempted.
+    pub(super) fn keep_refusal(&mut self, refusal: Option<RunError>) {
+        self.refusal = refusal;
+    }
+
+    /// The look-ahead over the present step must have an answer.
+    pub(super) fn check_answered(&mut self) -> Result<(), Obstacle> {
+        self.refusal
+            .take()
+            .map_or(Ok(()), |error| Err(error.into()))
+    }
+
+    /// The error of the step must be small enough.
+    pub(super) fn check_error(
+        &self,
         step: MacroStep,
         estimate: &Estimate,
         parts: &Parts,
-    ) -> Result<Judgement, RunError> {
+    ) -> Result<(), Obstacle> {
         if estimate.scaled <= 1.0 {
-            self.accept(step, estimate);
-            return Ok(Judgement::Accepted);
+            return Ok(());
         }
-        if step.length <= self.control.least_step {
-            return Err(RunError::LeastStep {
+        Err(Obstacle {
+            kind: Kind::Error(*estimate),
+            error: Box::new(RunError::LeastStep {
                 t: step.start,
                 step: step.length,
                 error: estimate.scaled,
                 tolerance: self.control.tolerance,
                 variable: estimate.suspect_name(parts),
-            });
-        }
-        let has_jumped = self.rejected.is_some_and(|earlier| {
-            let expected = (step.length / earlier.length).powf(SMOOTH_ORDER);
-            estimate.change > expected * earlier.change
-        });
-        self.rejected = Some(Rejected {
-            length: step.length,
-            change: estimate.change,
-        });
-        self.statistics.rejected += 1;
-        let factor = SAFETY * estimate.scaled.powf(-1.0 / estimate.order as f64);
-        let length = step.length * factor.clamp(MOST_SHRINKING, SAFETY);
-        Ok(Judgement::Repeat {
-            length: self.allowed(length),
-            has_jumped,
+            }),
         })
     }
 
-    fn accept(&mut self, step: MacroStep, estimate: &Estimate) {
+    /// How the step is repeated; the error of the obstacle if it cannot be.
+    pub(super) fn repeat(
+        &mut self,
+        step: MacroStep,
+        obstacle: Obstacle,
+    ) -> Result<Repetition, RunError> {
+        let Obstacle { kind, error } = obstacle;
+        if kind == Kind::Failed && !error.may_vanish_with_a_shorter_step() {
+            return Err(*error);
+        }
+        if step.length <= self.control.least_step {
+            return Err(error.of_least_step());
+        }
+        let causes = &mut self.statistics.rejected_by_cause;
+        let (count, share) = match kind {
+            Kind::Error(estimate) => {
+                let share = SAFETY * estimate.scaled.powf(-1.0 / estimate.order as f64);
+                (&mut causes.error, share)
+            }
+            Kind::NotConverged(share) => {
+                let share = share.map_or(DIVERGED, |share| SAFETY * share);
+                (&mut causes.not_converged, share)
+            }
+            Kind::Failed => (&mut causes.failed, FAILED),
+        };
+        *count += 1;
+        self.statistics.rejected += 1;
+        self.is_repeated = true;
+        let length = step.length * share.clamp(MOST_SHRINKING, SAFETY);
+        let length = self.allowed(length);
+        let has_jumped = match kind {
+            Kind::Error(estimate) => self.has_jumped(step, estimate.change),
+            Kind::NotConverged(_) | Kind::Failed => {
+                self.careful = Some((length.max(step.length / MOST_GROWTH), CAREFUL_STEPS));
+                false
+            }
+        };
+        Ok(Repetition { length, has_jumped })
+    }
+
+    /// Whether the multipliers change hardly less in the present attempt at a step than in the one before, which was longer.
+    fn has_jumped(&mut self, step: MacroStep, change: f64) -> bool {
+        let length = step.length;
+        let earlier = self.rejected.replace(Rejected { length, change });
+        earlier.is_some_and(|earlier| {
+            let expected = (length / earlier.length).powf(SMOOTH_ORDER);
+            change > expected * earlier.change
+        })
+    }
+
+    /// Takes the step; the length of the next one in s.
+    pub fn accept(&mut self, step: MacroStep, estimate: &Estimate) -> f64 {
         let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
         let scaled = estimate.scaled.max(LEAST_ERROR);
         let possible = SAFETY * power(scaled, -1.0);
         let smooth = SAFETY * power(scaled, -INTEGRAL) * power(self.before, PROPORTIONAL);
-        let most = match self.rejected.take() {
-            Some(_) => 1.0,
-            None => MOST_GROWTH,
-        };
-        self.wish = match possible {
+        let most = if self.is_repeated { 1.0 } else { MOST_GROWTH };
+        let mut wish = match possible {
             KEEP_FROM..=KEEP_TO => step.length,
-            _ => self.allowed(step.length * smooth.clamp(MOST_SHRINKING, most)),
+            _ => step.length * smooth.clamp(MOST_SHRINKING, most),
         };
+        self.careful = self.careful.filter(|(_, steps)| *steps > 0);
+        if let Some((longest, steps)) = &mut self.careful {
+            wish = wish.min(*longest);
+            *steps -= 1;
+        }
         self.before = scaled;
+        self.is_repeated = false;
+        self.rejected = None;
         self.statistics.accept(step);
+        match wish == step.length {
+            true => wish,
+            false => self.allowed(wish),
+        }
     }
 
     /// The longest allowed length that is no longer than this one.

@@ -18,6 +18,8 @@ use crate::results::{Cause, Integrations};
 use crate::scene::Increment;
 use crate::time::MacroStep;
 
+pub(crate) use answer::Answered;
+
 /// How far a look-ahead goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ahead {
@@ -190,14 +192,20 @@ impl Subsystem {
 
     /// Takes the answer and checks that it is complete and finite. `step` is the macro step that is under way.
     pub(crate) fn collect(&mut self, step: MacroStep) -> Result<(), RunError> {
+        self.receive(step)?;
+        self.take_advanced(step)?;
+        self.check_prediction(step)?;
+        self.check_evaluation(step)
+    }
+
+    fn receive(&mut self, step: MacroStep) -> Result<(), RunError> {
         let collected = self.connection.collect(&mut self.reply);
         collected.map_err(|error| self.failed(error, step))?;
         self.exchanges += 1;
         self.asked.count(&self.request, self.looks_ahead_for);
         self.work += self.reply.work.unwrap_or_default();
         self.request.go_back = false;
-        self.take_advanced(step)?;
-        self.check_looks_ahead(step)
+        Ok(())
     }
 
     pub(super) fn failed(&self, source: CallError, step: MacroStep) -> RunError {

@@ -1,6 +1,6 @@
 //! One macro step of a method without a corrector.
 
-use super::step_size::{Judgement, StepSize};
+use super::step_size::StepSize;
 use super::{Outcome, Parts};
 use crate::coupling::uncorrected::Uncorrected;
 use crate::error::RunError;
@@ -18,9 +18,9 @@ pub(super) fn macro_step(
     let mut wish = first.length;
     let outcome = match steps {
         Some((step_size, ceiling)) => {
-            let outcome = advance_until_accepted(method, parts, plan, first, step_size)?;
+            let (outcome, wished) = advance_until_accepted(method, parts, plan, first, step_size)?;
             ceiling.note(first.length, outcome.step.length);
-            wish = ceiling.limit(step_size.wish(), outcome.step.length);
+            wish = ceiling.limit(wished, outcome.step.length);
             outcome
         }
         None => Outcome::of_step(first, method.advance(parts, first)?),
@@ -30,7 +30,7 @@ pub(super) fn macro_step(
     Ok(outcome)
 }
 
-/// Shortens the step until its error is small enough. Histories never start anew, also where loads jump: the run with the accepted steps
+/// Shortens the step until its error is small enough; also the length of the next one. Histories never start anew, also where loads jump: the run with the accepted steps
 /// alone, which knows of no rejected one, has equal bits.
 fn advance_until_accepted(
     method: &mut dyn Uncorrected,
@@ -38,16 +38,17 @@ fn advance_until_accepted(
     plan: &mut TimePlan,
     first: MacroStep,
     step_size: &mut StepSize,
-) -> Result<Outcome, RunError> {
+) -> Result<(Outcome, f64), RunError> {
     method.prepare_estimate(parts, first, step_size.scales())?;
     let mut outcome = Outcome::of_step(first, method.advance(parts, first)?);
     loop {
         let estimate = method.error_estimate(parts, outcome.step, step_size.scales());
-        let judgement = step_size.judge(outcome.step, &estimate, parts)?;
-        let Judgement::Repeat { length, .. } = judgement else {
-            return Ok(outcome);
+        let Err(obstacle) = step_size.check_error(outcome.step, &estimate, parts) else {
+            let wish = step_size.accept(outcome.step, &estimate);
+            return Ok((outcome, wish));
         };
-        outcome.step = plan.shorten(length);
+        let repetition = step_size.repeat(outcome.step, obstacle)?;
+        outcome.step = plan.shorten(repetition.length);
         parts.go_back();
         outcome.solving += method.advance(parts, outcome.step)?;
     }

@@ -19,6 +19,8 @@ struct Group {
     variables: Range<usize>,
     /// Largest change of the last macro steps, older ones counting less.
     usual: f64,
+    /// The same before the present step.
+    past: f64,
 }
 
 /// Size of a change of the coupling variables, the largest over the groups.
@@ -56,17 +58,25 @@ impl Measure {
         let group = |(start, end): (&usize, usize)| Group {
             variables: *start..end,
             usual: 0.0,
+            past: 0.0,
         };
         Self {
             groups: starts.iter().zip(ends).map(group).collect(),
         }
     }
 
-    /// Takes note of the change that a macro step made.
+    /// Takes note of the change that a macro step makes; the last attempt at the step counts.
     pub fn note(&mut self, change: &[f64]) {
         for group in &mut self.groups {
             let size = norm(&change[group.variables.clone()]);
-            group.usual = size.max(MEMORY * group.usual);
+            group.usual = size.max(MEMORY * group.past);
+        }
+    }
+
+    /// The macro step is taken.
+    pub fn move_on(&mut self) {
+        for group in &mut self.groups {
+            group.past = group.usual;
         }
     }
 

@@ -225,6 +225,7 @@ impl Corrector for SemiImplicit {
         self.before.copy_from(&self.history);
         self.history.push(step.length, &self.corrected);
         self.columns.settle(step.length);
+        self.measure.move_on();
         if !self.continues {
             self.shortfall.forget();
         }

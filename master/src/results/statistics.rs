@@ -75,10 +75,23 @@ impl Corrections {
 pub struct StepStatistics {
     /// Attempts that were repeated with a shorter step.
     pub rejected: u64,
+    /// The same by cause.
+    pub rejected_by_cause: Rejections,
     /// The shortest step that was accepted.
     pub shortest: Option<StepAt>,
     /// The longest one.
     pub longest: Option<StepAt>,
+}
+
+/// Attempts at a macro step that were repeated, by cause.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct Rejections {
+    /// The estimated error was larger than allowed.
+    pub error: u64,
+    /// The corrections did not converge (`coupling.iterations`).
+    pub not_converged: u64,
+    /// A worker could not step so far, sent numbers that are none, or the coupling had no solution.
+    pub failed: u64,
 }
 
 /// A macro step.

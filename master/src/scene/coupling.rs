@@ -52,7 +52,11 @@ const JACOBIANS: [(&str, Jacobian); 2] = [
 ];
 
 /// What happens to a step whose corrections have not converged.
-const OTHERWISE: [(&str, Otherwise); 2] = [("warn", Otherwise::Warn), ("fail", Otherwise::Fail)];
+const OTHERWISE: [(&str, Otherwise); 3] = [
+    ("warn", Otherwise::Warn),
+    ("fail", Otherwise::Fail),
+    ("reject", Otherwise::Reject),
+];
 
 /// Corrections that have not converged after so many passes do not converge.
 const MOST_PASSES: usize = 1000;
@@ -197,7 +201,7 @@ pub(super) fn read(
     let iterations = match section.get("iterations") {
         Some(field) => field
             .section(problems)
-            .and_then(|section| read_iterations(&section, problems))
+            .and_then(|section| read_iterations(&section, steps.as_ref(), problems))
             .map(Some),
         None => Some(None),
     };
@@ -249,7 +253,11 @@ fn check_keys_of_all_methods(section: &Section<'_>, problems: &mut Problems<'_>)
     section.allow_only(&allowed, problems);
 }
 
-fn read_iterations(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Iterations> {
+fn read_iterations(
+    section: &Section<'_>,
+    steps: Option<&MacroSteps>,
+    problems: &mut Problems<'_>,
+) -> Option<Iterations> {
     section.allow_only(&["most", "tolerance", "otherwise"], problems);
     let most = section
         .get("most")
@@ -257,16 +265,30 @@ fn read_iterations(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
     let tolerance = section
         .get("tolerance")
         .map_or(Some(1e-9), |field| field.number(&POSITIVE, problems));
-    let otherwise = section
-        .get("otherwise")
-        .map_or(Some(Otherwise::Warn), |field| {
-            field.choice(&OTHERWISE, problems)
-        });
+    let otherwise = match section.get("otherwise") {
+        Some(field) => read_otherwise(&field, steps, problems),
+        None => Some(Otherwise::Warn),
+    };
     Some(Iterations {
         most: u32::try_from(most?).ok()?,
         tolerance: tolerance?,
         otherwise: otherwise?,
     })
+}
+
+fn read_otherwise(
+    field: &Field<'_>,
+    steps: Option<&MacroSteps>,
+    problems: &mut Problems<'_>,
+) -> Option<Otherwise> {
+    let otherwise = field.choice(&OTHERWISE, problems)?;
+    let is_fixed = steps.is_some_and(|steps| steps.control.is_none());
+    if otherwise == Otherwise::Reject && is_fixed {
+        let key = field.key.clone();
+        field.report(SceneErrorKind::RejectOfFixedSteps { key }, problems);
+        return None;
+    }
+    Some(otherwise)
 }
 
 fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Increment> {

@@ -263,6 +263,15 @@ pub enum SceneErrorKind {
         /// The key.
         key: String,
     },
+    /// A step that cannot be shortened cannot be rejected.
+    #[error(
+        "`{key}` = \"reject\" repeats a step with a shorter one, which only a variable macro step can; with a fixed one \"warn\" and \
+         \"fail\" are allowed"
+    )]
+    RejectOfFixedSteps {
+        /// The key.
+        key: String,
+    },
     /// Least, first and greatest macro step in no order.
     #[error("`{shorter}` = {least:?} s must be at most `{longer}` = {most:?} s")]
     StepsOutOfOrder {
@@ -374,6 +383,9 @@ impl SceneErrorKind {
             Self::NotFound { .. } => Some("check the path; it counts from the current folder".into()),
             Self::StepTooLong { .. } => Some("choose a smaller macro step or a later t_end".into()),
             Self::RefusedByWorker { help, .. } => help.clone(),
+            Self::RejectOfFixedSteps { .. } => Some(
+                "give coupling.tolerance, e.g. 1e-6, which lets the macro step vary, or choose \"fail\" or \"warn\"".to_owned(),
+            ),
             _ => None,
         }
     }

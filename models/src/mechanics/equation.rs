@@ -41,6 +41,9 @@ pub trait EquationOfMotion: Send {
     /// on the inputs.
     fn output(&self, state: &Self::State, inputs: &Self::Inputs, output: usize) -> Option<f64>;
 
+    /// Adds the loads that the model brings itself at time `t` (s) to the inputs; they belong to the motion and to no direction.
+    fn add_own_loads(&self, _t: f64, _inputs: &mut Self::Inputs) {}
+
     /// Brings a state that a macro step has reached back to where states belong (a quaternion to unit length).
     fn settle(&self, _state: &mut Self::State) {}
 }
@@ -51,15 +54,20 @@ pub struct Driven<'a, E> {
     pub equation: &'a E,
     pub inputs: &'a Inputs,
     pub joint_loads: &'a JointLoads,
+    /// Time at `tau = 0` in s; `None` for the motion in a direction, which no load of the model's own drives.
+    pub start: Option<f64>,
 }
 
 impl<E: EquationOfMotion> Driven<'_, E> {
     fn at(&self, tau: f64, y: &[f64]) -> (E::State, E::Inputs) {
         let mut state = E::State::ZERO;
         state.as_mut().copy_from_slice(y);
-        let inputs = self
+        let mut inputs = self
             .joint_loads
             .inputs_at(self.equation, &state, self.inputs, tau);
+        if let Some(start) = self.start {
+            self.equation.add_own_loads(start + tau, &mut inputs);
+        }
         (state, inputs)
     }
 }

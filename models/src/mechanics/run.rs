@@ -88,6 +88,7 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
             equation: &self.equation,
             inputs,
             joint_loads: &self.joint_loads,
+            start: Some(interval.start),
         };
         let mut reached = self.state;
         step(&mut self.solver, &driven, interval, &mut reached)?;
@@ -131,12 +132,13 @@ impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
 
     fn outputs(
         &mut self,
-        _t: f64,
+        t: f64,
         inputs: &[f64],
         wanted: &[usize],
         values: &mut [f64],
     ) -> Result<(), StepFailure> {
-        let u = self.joint_loads.inputs(&self.equation, &self.state, inputs);
+        let mut u = self.joint_loads.inputs(&self.equation, &self.state, inputs);
+        self.equation.add_own_loads(t, &mut u);
         read(&self.equation, &self.state, &u, wanted, values)
     }
 
@@ -153,16 +155,17 @@ impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
                 what: "directional derivatives",
             });
         }
-        let driven = |inputs| Driven {
+        let driven = |inputs, start| Driven {
             equation: &self.equation,
             inputs,
             joint_loads: &self.joint_loads,
+            start,
         };
         let mut response = E::State::ZERO;
         if interval.length > 0.0 {
             self.solver.respond(
-                &driven(inputs),
-                &driven(direction),
+                &driven(inputs, Some(interval.start)),
+                &driven(direction, None),
                 interval,
                 &self.state,
                 &mut response,

@@ -26,7 +26,8 @@ pub fn model() -> v1::Model {
     v1::Model {
         name: "oscillator".to_owned(),
         description: "One mass on a spring and a damper, with a second spring and damper to a partner: \
-                      m a = -c x - d v + f + partner_stiffness (partner_x - x) + partner_damping (partner_v - v)"
+                      m a = -c x - d v + f + partner_stiffness (partner_x - x) + partner_damping (partner_v - v), \
+                      and + load from t = load_from on"
             .to_owned(),
         inputs: inputs(),
         outputs: outputs(),
@@ -95,6 +96,8 @@ fn parameters() -> Vec<v1::Parameter> {
             "N s/m",
             "damping to the partner, 0 or greater",
         ),
+        at_zero("load", "N", "constant force on the mass from load_from on"),
+        at_zero("load_from", "s", "time at which the load sets in"),
     ]
 }
 

@@ -5,7 +5,7 @@ use linchpin_worker::Inputs;
 use nalgebra::DMatrix;
 
 use super::description::{A, F, PARTNER_V, PARTNER_X, V, X};
-use super::parameters::{OscillatorParameters, PartnerSpring};
+use super::parameters::{LoadStep, OscillatorParameters, PartnerSpring};
 use crate::mechanics::equation::EquationOfMotion;
 
 /// Position (m) and velocity (m/s).
@@ -19,15 +19,17 @@ pub struct Equation {
     pub stiffness: f64,
     pub damping: f64,
     partner: PartnerSpring,
+    pub load: LoadStep,
 }
 
 impl Equation {
-    pub fn new(own: OscillatorParameters, partner: PartnerSpring) -> Self {
+    pub fn new(own: OscillatorParameters, partner: PartnerSpring, load: LoadStep) -> Self {
         Self {
             mass: own.m,
             stiffness: own.c + partner.stiffness,
             damping: own.d + partner.damping,
             partner,
+            load,
         }
     }
 
@@ -61,6 +63,12 @@ impl EquationOfMotion for Equation {
         [v, self.acceleration(x, v, u)]
     }
 
+    fn add_own_loads(&self, t: f64, [f, ..]: &mut [f64; 3]) {
+        if t >= self.load.from {
+            *f += self.load.force;
+        }
+    }
+
     fn jacobian(&self, _: &State, _: &[f64; 3], jacobian: &mut DMatrix<f64>) {
         jacobian[(0, 0)] = 0.0;
         jacobian[(0, 1)] = 1.0;
@@ -92,6 +100,10 @@ mod tests {
             partner: PartnerSpring {
                 stiffness: 20.0,
                 damping: 0.3,
+            },
+            load: LoadStep {
+                force: 0.0,
+                from: 0.0,
             },
         };
         assert_jacobian(&equation, &[0.7, -2.9], &[3.1, -1.7, 0.9]);

@@ -1,4 +1,4 @@
-//! Solver `exact`: the solution in closed form for polynomial inputs.
+//! Solver `exact`: the solution in closed form for polynomial inputs, and for the load that sets in at a time.
 
 use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_worker::{Interval, StepFailure};
@@ -9,7 +9,7 @@ use crate::mechanics::equation::Driven;
 use crate::mechanics::run::Solver;
 
 /// The matrix exponential of the equation of motion, kept for the two step lengths used last: a run may end with
-/// a shorter step, and a step that is divided gives two.
+/// a shorter step, and a load that sets in within a step acts over a part of it.
 #[derive(Debug, Default)]
 pub struct Exact {
     kept: [Option<Response>; 2],
@@ -79,9 +79,48 @@ impl Solver<Equation> for Exact {
     fn step(
         &mut self,
         &Driven {
-            equation, inputs, ..
+            equation,
+            inputs,
+            start,
+            ..
         }: &Driven<Equation>,
         interval: Interval,
+        state: &mut State,
+    ) -> Result<(), StepFailure> {
+        self.advance(
+            equation,
+            interval,
+            &equation.force_powers(inputs, interval.length),
+            state,
+        )?;
+        // The equation is linear: the load adds the motion that it makes alone, from rest and from the time at which it sets in.
+        if start.is_some() && equation.load.force != 0.0 && interval.end() > equation.load.from {
+            let from = interval.start.max(equation.load.from);
+            let loaded = Interval {
+                start: from,
+                length: interval.end() - from,
+            };
+            let mut forces = [0.0; MAX_NODES];
+            forces[0] = equation.load.force;
+            let mut response = [0.0; 2];
+            self.advance(equation, loaded, &forces, &mut response)?;
+            *state = [state[0] + response[0], state[1] + response[1]];
+        }
+        self.steps += 1;
+        Ok(())
+    }
+
+    fn internal_steps(&self) -> u64 {
+        self.steps
+    }
+}
+
+impl Exact {
+    fn advance(
+        &mut self,
+        equation: &Equation,
+        interval: Interval,
+        forces: &[f64; MAX_NODES],
         state: &mut State,
     ) -> Result<(), StepFailure> {
         let response = self.response(equation, interval.length).ok_or_else(|| StepFailure::Recoverable {
@@ -91,12 +130,7 @@ impl Solver<Equation> for Exact {
                 interval.length, equation.stiffness, equation.damping, equation.mass
             ),
         })?;
-        response.advance(&equation.force_powers(inputs, interval.length), state);
-        self.steps += 1;
+        response.advance(forces, state);
         Ok(())
-    }
-
-    fn internal_steps(&self) -> u64 {
-        self.steps
     }
 }

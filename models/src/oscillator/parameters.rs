@@ -34,6 +34,28 @@ impl OscillatorParameters {
     }
 }
 
+/// A constant force on the mass that is there from a time on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadStep {
+    /// Force (N).
+    pub force: f64,
+    /// Time from which it acts (s).
+    pub from: f64,
+}
+
+impl LoadStep {
+    /// The parameters `load`, `load_from` of a setup.
+    ///
+    /// # Errors
+    /// [`SetupError`] if one is no finite number.
+    pub fn from_setup(setup: &Setup) -> Result<Self, SetupError> {
+        Ok(Self {
+            force: setup.parameter("load")?,
+            from: setup.parameter("load_from")?,
+        })
+    }
+}
+
 /// The spring and damper between the mass and a partner whose motion is an input.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PartnerSpring {

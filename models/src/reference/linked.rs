@@ -1,7 +1,7 @@
 //! Oscillators that rigid links make one body.
 
 use super::free::{FreeOscillation, Motion};
-use crate::oscillator::OscillatorParameters;
+use crate::oscillator::{LoadStep, OscillatorParameters};
 
 /// Several oscillators held together by the constraints `x_b - x_a = 0` of links `(a, b)`; `+lambda` acts on `a`,
 /// `-lambda` on `b`.
@@ -10,10 +10,26 @@ use crate::oscillator::OscillatorParameters;
 /// masses in two parts, and its force is what part `a` lacks:
 /// `lambda = M_a a + D_a v + C_a x = ((C_a M_b - C_b M_a) x + (D_a M_b - D_b M_a) v) / M`;
 /// for two masses this is eq. (3) of S1.
+///
+/// A load `F` that acts on one mass from a time on adds `F/C (1 - h)`, `h` the free motion from rest at 1 since then, and
+/// `M_a F / M` to the force of a link, without `F` if the mass belongs to part `a`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinkedOscillators {
     together: FreeOscillation,
     links: Vec<LinkForce>,
+    loads: Vec<Load>,
+}
+
+/// What a load does from its time on.
+#[derive(Debug, Clone, PartialEq)]
+struct Load {
+    from: f64,
+    /// `F/C`.
+    deflection: f64,
+    /// From rest at `-F/C`.
+    approach: FreeOscillation,
+    /// Its part in the force of every link.
+    in_links: Vec<f64>,
 }
 
 /// Force of one link: `per_x x + per_v v`.
@@ -71,6 +87,16 @@ pub enum LinkError {
         /// Number of the mass.
         mass: usize,
     },
+    /// Nothing holds a load against which there is no spring.
+    #[error(
+        "a load of {force} N acts on mass {mass}, and no mass has a spring: there is no closed form here"
+    )]
+    NoSpring {
+        /// Number of the mass.
+        mass: usize,
+        /// The load.
+        force: f64,
+    },
     /// Linked masses start at different places or velocities.
     #[error(
         "mass {mass} starts with {field} = {value}, mass 0 with {first}; linked masses must start alike"
@@ -114,19 +140,66 @@ impl LinkedOscillators {
             links: (0..links.len())
                 .map(|link| force(masses, links, link))
                 .collect(),
+            loads: Vec::new(),
         })
+    }
+
+    /// With loads on masses, whose times count from the start; those that are 0 do nothing.
+    ///
+    /// # Errors
+    /// As [`LinkedOscillators::new`]; [`LinkError::NoSpring`] if no mass has a spring.
+    pub fn loaded(
+        masses: &[OscillatorParameters],
+        links: &[(usize, usize)],
+        loads: &[LoadStep],
+    ) -> Result<Self, LinkError> {
+        let mut own = Self::new(masses, links)?;
+        let all = sums(masses, |_| true);
+        let acting = loads.iter().enumerate();
+        for (mass, &LoadStep { force, from }) in acting.filter(|(_, load)| load.force != 0.0) {
+            if all.c == 0.0 {
+                return Err(LinkError::NoSpring { mass, force });
+            }
+            let deflection = force / all.c;
+            let in_link = |link: usize| {
+                let is_on_side_a = side_a(masses.len(), links, link);
+                let share = sums(masses, |mass| is_on_side_a[mass]).m / all.m;
+                force * (share - f64::from(u8::from(is_on_side_a[mass])))
+            };
+            own.loads.push(Load {
+                from,
+                deflection,
+                approach: FreeOscillation::new(&OscillatorParameters {
+                    m: all.m,
+                    c: all.c,
+                    d: all.d,
+                    x0: -deflection,
+                    v0: 0.0,
+                }),
+                in_links: (0..links.len()).map(in_link).collect(),
+            });
+        }
+        Ok(own)
     }
 
     /// The common motion at `t` seconds after the start.
     pub fn motion(&self, t: f64) -> Motion {
-        self.together.motion(t)
+        let mut motion = self.together.motion(t);
+        for load in self.loads.iter().filter(|load| t >= load.from) {
+            let own = load.approach.motion(t - load.from);
+            motion.x += load.deflection + own.x;
+            motion.v += own.v;
+            motion.a += own.a;
+        }
+        motion
     }
 
-    /// Force (N) in link number `link` under the common motion; `None` if there is no such link.
-    pub fn multiplier(&self, link: usize, motion: &Motion) -> Option<f64> {
-        self.links
-            .get(link)
-            .map(|force| force.per_x * motion.x + force.per_v * motion.v)
+    /// Force (N) in link number `link` at `t` under the common motion; `None` if there is no such link.
+    pub fn multiplier(&self, link: usize, t: f64, motion: &Motion) -> Option<f64> {
+        let force = self.links.get(link)?;
+        let acting = self.loads.iter().filter(|load| t >= load.from);
+        let by_loads: f64 = acting.map(|load| load.in_links[link]).sum();
+        Some(force.per_x * motion.x + force.per_v * motion.v + by_loads)
     }
 }
 
@@ -219,9 +292,14 @@ fn part_of(start: usize, masses: usize, links: &[(usize, usize)]) -> Vec<bool> {
     is_in
 }
 
-fn force(masses: &[OscillatorParameters], links: &[(usize, usize)], link: usize) -> LinkForce {
+/// Which masses are on the side of the first end of a link.
+fn side_a(masses: usize, links: &[(usize, usize)], link: usize) -> Vec<bool> {
     let others: Vec<_> = [&links[..link], &links[link + 1..]].concat();
-    let is_on_side_a = part_of(links[link].0, masses.len(), &others);
+    part_of(links[link].0, masses, &others)
+}
+
+fn force(masses: &[OscillatorParameters], links: &[(usize, usize)], link: usize) -> LinkForce {
+    let is_on_side_a = side_a(masses.len(), links, link);
     let a = sums(masses, |mass| is_on_side_a[mass]);
     let b = sums(masses, |mass| !is_on_side_a[mass]);
     LinkForce {

@@ -116,6 +116,15 @@ const HEAVY_END: Hard = Hard {
     exact: heavy_end,
 };
 
+const LOAD_STEP: Hard = Hard {
+    name: "load-step",
+    text: include_str!("../../../scenes/hard/load-step.toml"),
+    exact: linear,
+};
+
+/// Time at which the load of [`LOAD_STEP`] sets in.
+const LOADED_FROM: f64 = 0.9137;
+
 const METHODS: [&str; 5] = [
     "method=weighted degree=1",
     "method=weighted degree=2",
@@ -224,9 +233,53 @@ fn a_chain_with_a_heavy_end() {
 }
 
 #[test]
+fn a_load_that_sets_in_at_once() {
+    LOAD_STEP.check(&METHODS, 2.0);
+}
+
+/// The step is short where the load sets in, after few attempts, and as long as before soon after.
+#[test]
+fn steps_grow_again_after_a_jump() {
+    for coupling in METHODS {
+        for tolerance in [1e-4, 1e-6] {
+            let own = LOAD_STEP.run(coupling, tolerance);
+            let (t, steps) = (own.trajectory.column("t"), own.trajectory.column("step"));
+            let of = |place: usize| (t[place] - steps[place], t[place], steps[place]);
+            let all = || (1..t.len()).map(of);
+            let inside = all().find(|(from, to, _)| *from < LOADED_FROM && LOADED_FROM < *to);
+            let (from, to, across) = inside.unwrap();
+            assert!(
+                LOADED_FROM - from > 0.0 && to > LOADED_FROM,
+                "{}",
+                own.context
+            );
+            let longest = |from: f64, to: f64| {
+                let within = all().filter(|(start, end, _)| *start > from && *end < to);
+                within.map(|(.., step)| step).fold(0.0, f64::max)
+            };
+            let (before, after) = (longest(0.7, LOADED_FROM), longest(LOADED_FROM, 1.3));
+            let context = format!("{}: {before:e} {across:e} {after:e}", own.context);
+            assert!(across < 0.5 * before, "{context}");
+            assert!(after > 0.2 * before && after > 3.0 * across, "{context}");
+            assert!(
+                own.trajectory.rejected < 60,
+                "{context}, {} rejected",
+                own.trajectory.rejected
+            );
+        }
+    }
+}
+
+#[test]
 #[ignore = "prints the table of docs/step-size.md"]
 fn table() {
-    for scene in [STIFF_SPRING, PRELOADED_SPRING, MASS_RATIO, HEAVY_END] {
+    for scene in [
+        STIFF_SPRING,
+        PRELOADED_SPRING,
+        MASS_RATIO,
+        HEAVY_END,
+        LOAD_STEP,
+    ] {
         scene.tell();
     }
 }

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod brittle;
+mod failures;
 mod hard_scenes;
 mod mistakes;
 mod traces;

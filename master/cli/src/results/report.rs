@@ -219,6 +219,15 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
 
 fn write_steps(steps: &StepStatistics, text: &mut String) -> std::fmt::Result {
     write!(text, "  rejected     {:>10}", steps.rejected)?;
+    let causes = &steps.rejected_by_cause;
+    for (count, cause) in [
+        (causes.not_converged, "not converged"),
+        (causes.failed, "failed"),
+    ] {
+        if count > 0 {
+            write!(text, " ({count} {cause})")?;
+        }
+    }
     for (what, step) in [("shortest", steps.shortest), ("longest", steps.longest)] {
         if let Some(step) = step {
             write!(

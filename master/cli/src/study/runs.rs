@@ -6,8 +6,7 @@ use linchpin_master::RunError;
 use linchpin_master::cosimulation::{Connect, Options, describe};
 use linchpin_master::results::Statistics;
 use linchpin_master::scene::{Override, Scene, SceneErrors};
-use linchpin_proto::contract::CallError;
-use linchpin_proto::v1::{Model, Severity};
+use linchpin_proto::v1::Model;
 
 use super::StudyError;
 use super::columns::{self, Column};
@@ -75,10 +74,7 @@ pub fn divergence(error: RunError) -> Result<String, RunError> {
         | RunError::Grown { .. }
         | RunError::NotFinite { .. }
         | RunError::Singular { .. } => true,
-        RunError::Worker { source, .. } => matches!(
-            &**source,
-            CallError::Failed(failure) if failure.severity() == Severity::Recoverable
-        ),
+        RunError::Worker { source, .. } => source.is_recoverable(),
         _ => false,
     };
     if has_diverged {

@@ -6,7 +6,37 @@ use super::{Ahead, Subsystem};
 use crate::error::RunError;
 use crate::time::MacroStep;
 
+/// What became of a request to advance and to look ahead from there.
+#[derive(Debug)]
+pub(crate) enum Answered {
+    /// All of it was done.
+    Whole,
+    /// The advance was done; the look-ahead came to nothing, but over a shorter step it may not.
+    Advanced(RunError),
+    /// Nothing was done, because of the look-ahead or of the advance; over a shorter step the look-ahead may be.
+    Refused(RunError),
+}
+
 impl Subsystem {
+    /// Takes the answer to a request to advance and to look ahead, as [`Subsystem::collect`] does. What ends the run is an error.
+    pub(crate) fn collect_advance(&mut self, step: MacroStep) -> Result<Answered, RunError> {
+        let may_be_repeated = |error: &RunError| error.may_vanish_with_a_shorter_step();
+        match self.receive(step) {
+            Err(error) if self.request.predict.is_some() && may_be_repeated(&error) => {
+                return Ok(Answered::Refused(error));
+            }
+            received => received?,
+        }
+        self.take_advanced(step)?;
+        let predicted = self.check_prediction(step);
+        self.check_evaluation(step)?;
+        match predicted {
+            Ok(()) => Ok(Answered::Whole),
+            Err(error) if may_be_repeated(&error) => Ok(Answered::Advanced(error)),
+            Err(error) => Err(error),
+        }
+    }
+
     /// Coupling outputs at the present macro point.
     pub(crate) fn coupling_values(&self) -> &[f64] {
         &self.outputs[..self.coupling_outputs]
@@ -59,7 +89,7 @@ impl Subsystem {
         Ok(())
     }
 
-    pub(super) fn check_looks_ahead(&self, step: MacroStep) -> Result<(), RunError> {
+    pub(super) fn check_prediction(&self, step: MacroStep) -> Result<(), RunError> {
         let names = &self.output_names[..self.coupling_outputs];
         let reply = &self.reply;
         if let Some(predict) = &self.request.predict {
@@ -82,6 +112,12 @@ impl Subsystem {
                 step,
             )?;
         }
+        Ok(())
+    }
+
+    pub(super) fn check_evaluation(&self, step: MacroStep) -> Result<(), RunError> {
+        let names = &self.output_names[..self.coupling_outputs];
+        let reply = &self.reply;
         if let Some(evaluate) = &self.request.evaluate {
             let evaluated = values(reply.evaluated.as_ref());
             self.check("evaluated outputs", evaluated, names, step)?;

@@ -218,9 +218,10 @@ impl Hermite {
         }
         self.arcs.change(&self.change);
         self.sample.take(&self.arcs);
+        check_finite(self.sample.ends(), parts, step)?;
         largest_changes(self.end.system.unknowns(), &self.change, &mut self.changes);
         self.foresee_accelerations(step.length);
-        check_finite(self.sample.ends(), parts, step)
+        Ok(())
     }
 
     /// The second derivatives of exchanged motion at the end of the step: linearised outputs.
@@ -311,6 +312,7 @@ impl Corrector for Hermite {
         self.wants_start = self.variant.starts_anew() && !self.continues;
         self.before.copy_from(&self.arcs);
         self.arcs.move_on(self.sample.ends(), &self.accelerations);
+        self.measure.move_on();
         self.read_starts();
     }
 

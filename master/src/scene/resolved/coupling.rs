@@ -228,6 +228,8 @@ pub enum Otherwise {
     Warn,
     /// The run stops.
     Fail,
+    /// It is repeated with a shorter step, which only a variable macro step can; where steps are fixed the run stops.
+    Reject,
 }
 
 /// Who evaluates a load whose direction turns with the bodies.
