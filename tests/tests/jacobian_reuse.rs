@@ -57,8 +57,7 @@ fn scenes() -> Vec<(String, Scene)> {
     scenes.retain(|(_, scene)| scene.coupling.method.keeps_columns());
     // Scenes of one subsystem couple nothing.
     scenes.retain(|(_, scene)| !scene.joints.is_empty());
-    // Workers that other machines serve are not there. The long chain is at rounding: its corrections do not converge with
-    // new columns either.
+    // Workers that other machines serve are not there.
     scenes.retain(|(name, _)| name != "oscillator-compose");
     scenes
 }

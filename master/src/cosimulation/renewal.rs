@@ -2,15 +2,11 @@
 
 use super::Parts;
 use super::obstacle::{Kind, Obstacle};
-use crate::coupling::corrector::Corrector;
-use crate::coupling::measure::Change;
+use crate::coupling::corrector::{Corrector, Missed};
+use crate::coupling::measure::{Change, MOST_LEFT};
 use crate::error::RunError;
 use crate::scene::{Iterations, Jacobian, Otherwise};
 use crate::time::MacroStep;
-
-/// What columns of an earlier step may leave of a correction. The error that they leave changes from step to step, so it is worse
-/// for the motion than an error of the multipliers of the same size that is smooth.
-const MOST_LEFT: f64 = 1e-4;
 
 /// Rate of convergence above which new columns come with the next look-ahead.
 const SLOW: f64 = 0.3;
@@ -186,18 +182,24 @@ impl Renewal {
 
     /// After the step: an advance shows what was missed without a pass.
     pub fn finish(&mut self, method: &mut dyn Corrector, parts: &Parts) -> Passes {
-        let is_old = self.rule != Jacobian::EveryStep && !self.are_fresh;
-        if let Some(again) = method.again()
-            && is_old
-        {
-            let missed = again.learn(parts);
-            self.listen(missed.by_last);
-            if self.passes.count == 0 {
-                self.left_by_first = Some(rate(missed.by_last, self.first));
+        if self.rule == Jacobian::EveryStep {
+            return self.passes;
+        }
+        if let Some(again) = method.again() {
+            let missed = again.learn(parts, self.are_fresh);
+            if !self.are_fresh {
+                self.take(missed);
             }
-            self.rate = Some(rate(missed.by_first, self.first));
         }
         self.passes
+    }
+
+    fn take(&mut self, missed: Missed) {
+        self.listen(missed.by_last);
+        if self.passes.count == 0 {
+            self.left_by_first = Some(rate(missed.by_last, self.first));
+        }
+        self.rate = Some(rate(missed.by_first, self.first));
     }
 
     /// A pass leaves a share of what it has changed; what is left beyond that no further pass would take away.

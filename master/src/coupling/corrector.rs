@@ -68,8 +68,8 @@ pub(crate) trait Again {
     fn has_columns(&self, step: MacroStep) -> bool;
 
     /// Learns from the outputs after the advance what the first correction of the step has missed, so that the next first
-    /// correction takes it into account. Comes after [`Corrector::move_on`].
-    fn learn(&mut self, parts: &Parts) -> Missed;
+    /// correction takes it into account; of a step `with_new_columns`, what even they leave. Comes after [`Corrector::move_on`].
+    fn learn(&mut self, parts: &Parts, with_new_columns: bool) -> Missed;
 }
 
 /// What corrections of a step have missed, relative to the first corrections of the last macro steps.

@@ -8,7 +8,8 @@ use super::layout::Layout;
 ///
 /// The variables are taken in groups of one unit: the forces of a joint, its moments, every exchanged output, every
 /// attitude. The norm is the largest of the Euclidean norms of the groups, each relative to the size of that group's
-/// changes in the last macro steps; so no unit and no scale of a joint counts more than another.
+/// changes in the last macro steps; so no unit and no scale of a joint counts more than another. Where new columns leave more than
+/// [`MOST_LEFT`] of that, as of forces that are next to nothing, what they leave counts as [`MOST_LEFT`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
     groups: Vec<Group>,
@@ -21,7 +22,16 @@ struct Group {
     usual: f64,
     /// The same before the present step.
     past: f64,
+    /// What corrections with new columns leave: the noise of the solvers where it is larger than [`MOST_LEFT`] of a usual change.
+    left_by_new: f64,
 }
+
+/// What columns of an earlier step may leave of a correction. The error that they leave changes from step to step, so it is worse
+/// for the motion than an error of the multipliers of the same size that is smooth.
+pub const MOST_LEFT: f64 = 1e-4;
+
+/// What new columns leave may be so many times as much another time.
+const SCATTER: f64 = 3.0;
 
 /// Size of a change of the coupling variables, the largest over the groups.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -59,6 +69,7 @@ impl Measure {
             variables: *start..end,
             usual: 0.0,
             past: 0.0,
+            left_by_new: 0.0,
         };
         Self {
             groups: starts.iter().zip(ends).map(group).collect(),
@@ -70,6 +81,14 @@ impl Measure {
         for group in &mut self.groups {
             let size = norm(&change[group.variables.clone()]);
             group.usual = size.max(MEMORY * group.past);
+        }
+    }
+
+    /// Takes note of what a correction with new columns has left.
+    pub fn note_left(&mut self, left: &[f64]) {
+        for group in &mut self.groups {
+            let size = SCATTER * norm(&left[group.variables.clone()]);
+            group.left_by_new = size.max(MEMORY * group.left_by_new);
         }
     }
 
@@ -88,9 +107,8 @@ impl Measure {
             if size <= ROUNDING * value {
                 continue;
             }
-            largest.of_usual = largest
-                .of_usual
-                .max(size / group.usual.max(ROUNDING * value));
+            let usual = group.usual.max(group.left_by_new / MOST_LEFT);
+            largest.of_usual = largest.of_usual.max(size / usual.max(ROUNDING * value));
             let of_size = size / value.max(group.usual);
             if of_size > largest.of_size {
                 largest.of_size = of_size;

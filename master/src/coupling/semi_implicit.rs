@@ -283,13 +283,16 @@ impl Again for SemiImplicit {
     }
 
     /// The solution for the conditions at the corrected outputs, with the matrix of the correction.
-    fn learn(&mut self, parts: &Parts) -> Missed {
+    fn learn(&mut self, parts: &Parts, with_new_columns: bool) -> Missed {
         let point = Point::ends(&self.corrected, self.before.attitudes());
         let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
         let system = &mut self.system;
         system.assemble_residuals(&parts.layout, outputs, point);
         self.condition
             .solve_again(self.solved, system, &mut self.solvers, &mut self.remaining);
+        if with_new_columns {
+            self.measure.note_left(&self.remaining);
+        }
         let (measure, values) = (&self.measure, &self.corrected);
         let size = |change: &[f64]| measure.of(change, values).of_usual;
         Missed {

@@ -30,7 +30,7 @@ impl Again for Hermite {
     }
 
     /// The solution for the conditions at the outputs after the advance, with the matrix of the correction.
-    fn learn(&mut self, parts: &Parts) -> Missed {
+    fn learn(&mut self, parts: &Parts, with_new_columns: bool) -> Missed {
         let step = self.before.length();
         self.settled.take(&self.before);
         let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
@@ -40,8 +40,12 @@ impl Again for Hermite {
         self.stack.assemble_end(system, step);
         let remaining = self.stack.rhs();
         self.solver.solve_again(remaining);
-        let (measure, ends) = (&self.measure, self.settled.ends());
         let unknowns = system.unknowns();
+        if with_new_columns {
+            largest_changes(unknowns, remaining, &mut self.changes);
+            self.measure.note_left(&self.changes);
+        }
+        let (measure, ends) = (&self.measure, self.settled.ends());
         let changes = &mut self.changes;
         let mut size = |change: &[f64]| {
             largest_changes(unknowns, change, changes);
