@@ -87,7 +87,10 @@ fn repeat_until_accepted(
 ) -> Result<(), RunError> {
     loop {
         let estimate = method.error_estimate(parts, outcome.step, step_size.scales());
-        let judgement = step_size.judge(outcome.step, &estimate, parts)?;
+        let purpose = step_size.purpose(&estimate);
+        let scales = step_size.scales();
+        let next = method.choose_degrees(parts, outcome.step, scales, &estimate, purpose);
+        let judgement = step_size.judge(outcome.step, &estimate, &next, parts)?;
         let Judgement::Repeat { length, has_jumped } = judgement else {
             return Ok(());
         };

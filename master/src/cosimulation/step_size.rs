@@ -1,6 +1,7 @@
 //! The length of a variable macro step: accepted or repeated, and how long the next one is.
 
 use crate::cosimulation::{Options, Parts};
+use crate::coupling::degree_choice::{MOST_GROWTH, Purpose};
 use crate::coupling::error_estimate::{ErrorScales, Estimate};
 use crate::error::RunError;
 use crate::results::StepStatistics;
@@ -13,9 +14,6 @@ const SAFETY: f64 = 0.9;
 /// Exponents of the controller, per order: proportional-integral, so that the step length does not swing.
 const INTEGRAL: f64 = 0.7;
 const PROPORTIONAL: f64 = 0.4;
-
-/// A step is at most this many times as long as the one before. More would make the polynomials over unequal steps unstable.
-const MOST_GROWTH: f64 = 2.0;
 
 /// A repeated step has at least this share of the rejected one.
 const MOST_SHRINKING: f64 = 0.1;
@@ -42,6 +40,7 @@ const LEAST_ERROR: f64 = 1e-4;
 /// Chooses the lengths of the macro steps.
 pub struct StepSize {
     control: StepControl,
+    rule: Rule,
     scales: ErrorScales,
     /// Length of the first step in s.
     first: f64,
@@ -51,6 +50,17 @@ pub struct StepSize {
     /// The last attempt at the present step.
     rejected: Option<Rejected>,
     statistics: StepStatistics,
+}
+
+/// Where the lengths come from. If they are known beforehand, every step is accepted, and what remains to be chosen are degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rule {
+    /// They follow the error.
+    Free,
+    /// From a run in which they did.
+    Given,
+    /// They are all equal.
+    Equal,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,8 +85,9 @@ pub enum Judgement {
 
 impl StepSize {
     /// From a first step of length `first` in a run over `span` s, at a start whose outputs are known.
-    pub fn new(control: StepControl, first: f64, span: f64, parts: &Parts) -> Self {
+    fn new(rule: Rule, control: StepControl, first: f64, span: f64, parts: &Parts) -> Self {
         Self {
+            rule,
             scales: ErrorScales::new(&control, span, parts),
             control,
             first,
@@ -97,20 +108,31 @@ impl StepSize {
         self.wish
     }
 
-    /// Steps so far.
-    pub fn statistics(&self) -> &StepStatistics {
-        &self.statistics
+    /// Steps so far, if their lengths follow the error.
+    pub fn statistics(&self) -> Option<StepStatistics> {
+        (self.rule == Rule::Free).then_some(self.statistics)
     }
 
-    /// Accepts the step or says how long its repetition is.
+    /// What degrees are chosen for, after a step with this error.
+    pub fn purpose(&self, estimate: &Estimate) -> Purpose {
+        match self.rule {
+            Rule::Free if estimate.scaled > 1.0 => Purpose::Repetition,
+            Rule::Free | Rule::Given => Purpose::LongestStep,
+            Rule::Equal => Purpose::SmallestError,
+        }
+    }
+
+    /// Accepts the step or says how long its repetition is; `next` is the error that it would have had with the degrees that have been
+    /// chosen for what follows.
     pub fn judge(
         &mut self,
         step: MacroStep,
         estimate: &Estimate,
+        next: &Estimate,
         parts: &Parts,
     ) -> Result<Judgement, RunError> {
-        if estimate.scaled <= 1.0 {
-            self.accept(step, estimate);
+        if self.purpose(estimate) != Purpose::Repetition {
+            self.accept(step, next, next == estimate);
             return Ok(Judgement::Accepted);
         }
         if step.length <= self.control.least_step {
@@ -128,10 +150,10 @@ impl StepSize {
         });
         self.rejected = Some(Rejected {
             length: step.length,
-            change: estimate.change,
+            change: next.change,
         });
         self.statistics.rejected += 1;
-        let factor = SAFETY * estimate.scaled.powf(-1.0 / estimate.order as f64);
+        let factor = SAFETY * next.scaled.powf(-1.0 / next.order as f64);
         let length = step.length * factor.clamp(MOST_SHRINKING, SAFETY);
         Ok(Judgement::Repeat {
             length: self.allowed(length),
@@ -139,11 +161,15 @@ impl StepSize {
         })
     }
 
-    fn accept(&mut self, step: MacroStep, estimate: &Estimate) {
+    /// Errors before are compared only if the degrees stay.
+    fn accept(&mut self, step: MacroStep, estimate: &Estimate, has_equal_degrees: bool) {
         let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
         let scaled = estimate.scaled.max(LEAST_ERROR);
         let possible = SAFETY * power(scaled, -1.0);
-        let smooth = SAFETY * power(scaled, -INTEGRAL) * power(self.before, PROPORTIONAL);
+        let smooth = match has_equal_degrees {
+            true => SAFETY * power(scaled, -INTEGRAL) * power(self.before, PROPORTIONAL),
+            false => possible,
+        };
         let most = match self.rejected.take() {
             Some(_) => 1.0,
             None => MOST_GROWTH,
@@ -184,12 +210,23 @@ pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
     }
 }
 
-/// The control of the steps, if the scene asks for one; outputs at the start are known.
+/// Against which the errors of degrees are compared where no error is too large: only their ratios matter.
+const ANY_ERROR: StepControl = StepControl {
+    tolerance: 1.0,
+    absolute_tolerance: 1e-3,
+    least_step: 0.0,
+    greatest_step: f64::INFINITY,
+};
+
+/// The control of the steps, if the scene asks for one, or of the degrees; outputs at the start are known.
 pub(super) fn step_size_of(scene: &Scene, options: &Options, parts: &Parts) -> Option<StepSize> {
-    let control = scene.coupling.step_control?;
-    if options.step_lengths.is_some() {
-        return None;
-    }
+    let coupling = &scene.coupling;
+    let (rule, control) = match (coupling.step_control, &options.step_lengths) {
+        (Some(control), None) => (Rule::Free, control),
+        _ if !coupling.has_automatic_degree() => return None,
+        (Some(control), Some(_)) => (Rule::Given, control),
+        (None, _) => (Rule::Equal, ANY_ERROR),
+    };
     let (first, span) = (scene.coupling.macro_step, scene.t_end - scene.t_start);
-    Some(StepSize::new(control, first, span, parts))
+    Some(StepSize::new(rule, control, first, span, parts))
 }

@@ -43,7 +43,7 @@ fn advance_until_accepted(
     let mut outcome = Outcome::of_step(first, method.advance(parts, first)?);
     loop {
         let estimate = method.error_estimate(parts, outcome.step, step_size.scales());
-        let judgement = step_size.judge(outcome.step, &estimate, parts)?;
+        let judgement = step_size.judge(outcome.step, &estimate, &estimate, parts)?;
         let Judgement::Repeat { length, .. } = judgement else {
             return Ok(outcome);
         };

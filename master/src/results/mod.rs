@@ -10,6 +10,6 @@ pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
 pub use row::{Drawn, Row};
 pub use statistics::{
-    Corrections, JointResiduals, Statistics, StepStatistics, SubsystemStatistics,
+    Corrections, DegreeStatistics, JointResiduals, Statistics, StepStatistics, SubsystemStatistics,
 };
 pub use verdict::{Defect, Verdict};

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod degrees;
 mod hard_scenes;
+mod jump;
 mod mistakes;
 mod traces;
