@@ -13,7 +13,7 @@ use faer::Mat;
 use crate::CoSimulation;
 use crate::cosimulation::{Connect, Options, describe, multiplier_columns};
 use crate::results::Row;
-use crate::scene::{Increment, JointKind, Method, Order, Scene};
+use crate::scene::{Degree, Increment, JointKind, Method, Order, Scene};
 
 use linchpin_proto::v1::{self, value::Kind};
 
@@ -268,7 +268,8 @@ fn check_exchanged(scene: &Scene) -> Result<(), ProbeError> {
 
 /// Number of macro points at which the method remembers multipliers, the present one included.
 fn memory_of(scene: &Scene) -> Result<usize, ProbeError> {
-    let degree = scene.coupling.degree;
+    let fixed = |degree: Degree| degree.fixed().ok_or(ProbeError::ChangesDegree);
+    let degree = fixed(scene.coupling.degree)?;
     match scene.coupling.method {
         Method::Baumgarte { .. } | Method::Weighted { .. } => Ok(degree + 1),
         Method::Hermite { variant } => Ok(usize::from(!variant.starts_anew())),
@@ -279,7 +280,7 @@ fn memory_of(scene: &Scene) -> Result<usize, ProbeError> {
         Method::Penalty {
             order: Order::GaussSeidel,
             ..
-        } => match scene.coupling.exchanged_degree {
+        } => match fixed(scene.coupling.exchanged_degree)? {
             0 => Ok(degree + 1),
             degree => Err(ProbeError::RemembersOutputs { degree }),
         },

@@ -75,6 +75,20 @@ fn a_macro_step_allocates_nothing() {
             "coupling.jacobian=every-step",
             "coupling.tolerance=1e-8",
         ],
+        &[
+            "coupling.method=weighted",
+            "coupling.index=1",
+            "coupling.degree=automatic",
+            "coupling.jacobian=every-step",
+            "coupling.tolerance=1e-8",
+            "coupling.macro_step=1e-4",
+            "coupling.greatest_step=1e-4",
+        ],
+        &[
+            "coupling.method=weighted",
+            "coupling.index=1",
+            "coupling.degree=automatic",
+        ],
         &["coupling.method=hermite"],
         &["coupling.method=hermite", "coupling.jacobian=every-step"],
         &[

@@ -12,7 +12,7 @@ use linchpin_tests::runs::run;
 use linchpin_tests::scenes::{RADAU5, with_settings};
 
 /// Every method, with every degree at which it is stable.
-const COUPLINGS: [&str; 28] = [
+const COUPLINGS: [&str; 29] = [
     "method=hermite variant=apv",
     "method=hermite variant=c0pv",
     "method=hermite variant=c0v jacobian=every-step",
@@ -30,6 +30,7 @@ const COUPLINGS: [&str; 28] = [
     "method=weighted index=1 degree=1",
     "method=weighted index=1 degree=2",
     "method=weighted index=1 degree=3",
+    "method=weighted index=1 degree=automatic",
     "method=weighted index=2 a=1 degree=0",
     "method=weighted index=3 degree=0",
     "method=explicit mu=1e-2",

@@ -24,7 +24,8 @@ fn scene(coupling: &str, degree: usize, h: f64, t_end: f64) -> Scene {
 /// Errors with multipliers before the start that are the exact ones at `past(p)`, p macro steps before it.
 fn errors_with_past(scene: &Scene, past: impl Fn(usize) -> f64) -> Errors {
     let exact = closed_form(scene);
-    let values = (0..=scene.coupling.degree).map(|p| vec![exact("link.lambda", past(p)).unwrap()]);
+    let degree = scene.coupling.degree.highest();
+    let values = (0..=degree).map(|p| vec![exact("link.lambda", past(p)).unwrap()]);
     let options = Options {
         established: Some(values.collect()),
         ..Options::default()

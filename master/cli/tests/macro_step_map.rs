@@ -135,7 +135,7 @@ fn powers_of_the_map_are_the_run() {
         let scene = oscillator(&[method, &[recorded, ("coupling.macro_step", "1.3e-3")]].concat());
         let map = try_map(&scene).unwrap();
         let states = run(&scene, &map);
-        let established = scene.coupling.degree;
+        let established = scene.coupling.degree.fixed().unwrap();
         let mut state = states[established].clone();
         // The last steps of the grid are shorter.
         for found in &states[established + 1..states.len() - 2] {
@@ -268,6 +268,8 @@ fn a_scene_without_a_map_says_why() {
         refused(&sequence),
         ProbeError::RemembersOutputs { degree: 2 }
     ));
+    let changing = [("coupling.index", "1"), ("coupling.degree", "automatic")];
+    assert!(matches!(refused(&changing), ProbeError::ChangesDegree));
     let unknown = refused(&[("subsystem.mass1.parameters.m", "-1")]);
     assert!(matches!(unknown, ProbeError::Run(_)), "{unknown}");
 }

@@ -45,7 +45,7 @@ pub(super) fn macro_step(
         }
         None => parts.forgo_prediction(),
     }
-    match step_size {
+    match step_size.filter(|own| own.varies()) {
         None => exchange(&mut parts.subsystems, step)?,
         Some(step_size) => {
             step_size.keep_refusal(recovery::advance(&mut parts.subsystems, step)?);
@@ -69,7 +69,9 @@ fn repeat_until_accepted(
     loop {
         let before = *renewal;
         match attempt(method, parts, renewal, Some(step_size), outcome) {
-            Ok(estimate) => return Ok(step_size.accept(outcome.step, &estimate)),
+            Ok((estimate, next)) => {
+                return Ok(step_size.accept(outcome.step, &next, next == estimate));
+            }
             Err(obstacle) => {
                 let repetition = step_size.repeat(outcome.step, obstacle)?;
                 if repetition.has_jumped {
@@ -86,22 +88,26 @@ fn repeat_until_accepted(
 }
 
 /// Corrects the step as often as it takes, from the answers to the look-ahead over it. Where steps vary its error must be small enough
-/// at the first correction: later ones change what the error belongs to, and cost exchanges.
+/// at the first correction: later ones change what the error belongs to, and cost exchanges. Gives that error, and the one that the
+/// step would have had with the degrees of the next one.
 fn attempt(
     method: &mut dyn Corrector,
     parts: &mut Parts,
     renewal: &mut Renewal,
     step_size: Option<&mut StepSize>,
     outcome: &mut Outcome,
-) -> Result<Estimate, Obstacle> {
+) -> Result<(Estimate, Estimate), Obstacle> {
     let step = outcome.step;
-    let mut estimate = Estimate::NONE;
-    let varies = step_size.is_some();
+    let mut estimates = (Estimate::NONE, Estimate::NONE);
+    let varies = step_size.as_ref().is_some_and(|own| own.varies());
     if let Some(step_size) = step_size {
         step_size.check_answered()?;
         outcome.solving += correct(method, parts, step)?;
-        estimate = method.error_estimate(parts, step, step_size.scales());
-        step_size.check_error(step, &estimate, parts)?;
+        let estimate = method.error_estimate(parts, step, step_size.scales());
+        let (purpose, scales) = (step_size.purpose(&estimate), step_size.scales());
+        let next = method.choose_degrees(parts, step, scales, &estimate, purpose);
+        step_size.check_error(step, &estimate, &next, parts)?;
+        estimates = (estimate, next);
     } else {
         outcome.solving += correct(method, parts, step)?;
     }
@@ -114,7 +120,7 @@ fn attempt(
         renewal.note_pass(last_change(method), with_columns);
     }
     renewal.check(parts, step)?;
-    Ok(estimate)
+    Ok(estimates)
 }
 
 /// Corrects, and gives the time that it took.
@@ -137,6 +143,7 @@ pub(super) fn look_ahead(
     step_size: Option<&mut StepSize>,
 ) -> Result<(), RunError> {
     parts.forgo_advance();
+    let step_size = step_size.filter(|own| own.varies());
     let varies = step_size.is_some();
     let requested = method.request_prediction(parts, step, with_columns);
     let looked = requested.and_then(|()| look(parts, step, varies));

@@ -1,10 +1,14 @@
 //! Degrees of the input polynomials, and who evaluates turning loads, by what the workers can.
 
+use std::cmp::Reverse;
+
 use linchpin_proto::v1;
 
+use crate::coupling::automatic_degrees::StepDegrees;
 use crate::coupling::layout::{DrivenInput, Layout, LoadForm, Source};
 use crate::error::RunError;
-use crate::scene::{self, Jacobian, Loads, Method, Scene};
+use crate::scene::{self, Degree, Jacobian, Loads, Method, Scene};
+use crate::signal::MAX_DEGREE;
 
 /// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
 const LOAD_DEGREE: usize = 5;
@@ -33,8 +37,12 @@ pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Load
                     .into())
             }
             Loads::Automatic | Loads::Master => Ok(LoadForm::Wrench {
-                degree: match (coupling.degree, coupling.exchanged_degree) {
-                    (0, 0) => 0,
+                degree: match coupling
+                    .degree
+                    .highest()
+                    .max(coupling.exchanged_degree.highest())
+                {
+                    0 => 0,
                     _ => highest(model).map_or(LOAD_DEGREE, |highest| highest.min(LOAD_DEGREE)),
                 },
             }),
@@ -43,71 +51,122 @@ pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Load
     scene.subsystems.iter().zip(models).map(form).collect()
 }
 
-/// Refuses polynomials of a degree that a worker cannot take.
+/// Refuses polynomials of a degree that a worker cannot take; the highest degrees that all workers take, where they follow the estimates.
 pub(super) fn check_degrees(
     scene: &Scene,
     models: &[v1::Model],
     layout: &Layout,
-) -> Result<(), RunError> {
+) -> Result<StepDegrees, RunError> {
+    let [multipliers, exchanged] = groups(&scene.coupling);
+    let mut limits = [multipliers, exchanged].map(|group| match group.degree {
+        Degree::Automatic => Some(MAX_DEGREE),
+        Degree::Fixed(_) => None,
+    });
     for input in &layout.inputs {
-        let Some((degree, key)) = sent_degree(&scene.coupling, layout, input) else {
+        let model = &models[input.subsystem];
+        let Some(highest) = highest(model) else {
             continue;
         };
-        let model = &models[input.subsystem];
-        if let Some(highest) = highest(model).filter(|highest| *highest < degree) {
-            let message = format!(
-                "the model \"{}\" of subsystem \"{}\" takes inputs of degree {highest} at most, found {degree}",
-                model.name, scene.subsystems[input.subsystem].name
-            );
-            let help = match key {
-                VARIANT => "choose another variant or method".to_owned(),
-                key => format!("choose {key} = {highest}"),
-            };
-            return Err(scene.error(key, message, Some(help)).into());
+        for sent in sent(&scene.coupling, layout, input) {
+            match (sent.degree, sent.group) {
+                (Degree::Automatic, Some(group)) => {
+                    limits[group] = limits[group].map(|limit| limit.min(highest));
+                }
+                (Degree::Fixed(degree), _) if degree > highest => {
+                    return Err(refuse_degree(
+                        scene, model, input, sent.key, degree, highest,
+                    ));
+                }
+                _ => {}
+            }
         }
     }
-    Ok(())
+    let [multipliers, exchanged] = limits;
+    Ok(StepDegrees {
+        multipliers,
+        exchanged,
+    })
+}
+
+fn refuse_degree(
+    scene: &Scene,
+    model: &v1::Model,
+    input: &DrivenInput,
+    key: &str,
+    degree: usize,
+    highest: usize,
+) -> RunError {
+    let message = format!(
+        "the model \"{}\" of subsystem \"{}\" takes inputs of degree {highest} at most, found {degree}",
+        model.name, scene.subsystems[input.subsystem].name
+    );
+    let help = match key {
+        VARIANT => "choose another variant or method".to_owned(),
+        key => format!("choose {key} = {highest}"),
+    };
+    scene.error(key, message, Some(help)).into()
 }
 
 /// The key that determines the degrees of Hermite coupling.
 const VARIANT: &str = "coupling.variant";
 
-/// Degree of the polynomials that an input is sent, and the key that determines it; `None` for what is constant on a step.
-fn sent_degree(
-    coupling: &scene::Coupling,
-    layout: &Layout,
-    input: &DrivenInput,
-) -> Option<(usize, &'static str)> {
+/// A degree of polynomials that an input is sent.
+#[derive(Debug, Clone, Copy)]
+struct Sent {
+    degree: Degree,
+    /// The key that determines it.
+    key: &'static str,
+    /// 0 for that of multipliers, 1 for that of exchanged variables; absent if neither says it.
+    group: Option<usize>,
+}
+
+fn groups(coupling: &scene::Coupling) -> [Sent; 2] {
+    let group = |group, degree, key| Sent {
+        degree,
+        key,
+        group: Some(group),
+    };
+    [
+        group(0, coupling.degree, "coupling.degree"),
+        group(1, coupling.exchanged_degree, "coupling.exchanged_degree"),
+    ]
+}
+
+/// The degrees of the polynomials that an input is sent, the highest first; none for what is constant on a step.
+fn sent(coupling: &scene::Coupling, layout: &Layout, input: &DrivenInput) -> Vec<Sent> {
     let exchanged = layout.rows.len()..layout.variables();
-    let of_multipliers = (coupling.degree, "coupling.degree");
-    let of_exchanged = (coupling.exchanged_degree, "coupling.exchanged_degree");
-    let is_exchanged = match &input.source {
-        Source::Attitude { .. } => return None,
-        Source::Sum(terms) => terms
-            .iter()
-            .all(|(variable, _)| exchanged.contains(variable)),
-        // The direction of a load is no polynomial; of a lower degree it would spoil the order of the method.
-        Source::Load(_) => coupling.exchanged_degree > coupling.degree,
+    let mut groups = groups(coupling);
+    let of_variant = |degree| Sent {
+        degree: Degree::Fixed(degree),
+        key: VARIANT,
+        group: None,
     };
-    let Method::Hermite { variant } = coupling.method else {
-        return Some(if is_exchanged {
-            of_exchanged
-        } else {
-            of_multipliers
-        });
+    let terms = match &input.source {
+        Source::Attitude { .. } => return Vec::new(),
+        Source::Sum(terms) => terms,
+        Source::Load(_) => {
+            if let Method::Hermite { variant } = coupling.method {
+                return vec![of_variant(variant.motion_degree())];
+            }
+            // The direction of a load is no polynomial; of a lower degree it would spoil the order of the method.
+            groups.sort_by_key(|sent| Reverse(sent.degree.highest()));
+            return groups.to_vec();
+        }
     };
-    let is_signal = match &input.source {
-        Source::Sum(terms) => terms
-            .iter()
-            .any(|(variable, _)| layout.is_signal(*variable)),
-        Source::Attitude { .. } | Source::Load(_) => false,
-    };
-    let is_load_of_fixed_direction = matches!(input.source, Source::Sum(_)) && !is_exchanged;
-    Some(match (is_signal, is_load_of_fixed_direction) {
-        (true, _) => of_exchanged,
-        (_, true) => (variant.degree(), VARIANT),
-        (false, false) => (variant.motion_degree(), VARIANT),
-    })
+    let is_exchanged = terms
+        .iter()
+        .all(|(variable, _)| exchanged.contains(variable));
+    let is_signal = terms
+        .iter()
+        .any(|(variable, _)| layout.is_signal(*variable));
+    let [of_multipliers, of_exchanged] = groups;
+    vec![match coupling.method {
+        Method::Hermite { .. } if is_signal => of_exchanged,
+        Method::Hermite { variant } if is_exchanged => of_variant(variant.motion_degree()),
+        Method::Hermite { variant } => of_variant(variant.degree()),
+        _ if is_exchanged => of_exchanged,
+        _ => of_multipliers,
+    }]
 }
 
 /// Highest degree of a polynomial that the worker takes, if there is a limit.

@@ -30,6 +30,7 @@ pub use subsystem::{Ahead, Subsystem};
 pub use tie::multiplier_columns;
 pub use velocities::FreeVelocity;
 
+pub use crate::coupling::automatic_degrees::StepDegrees;
 use crate::coupling::corrector::Corrector;
 use crate::coupling::layout::Layout;
 use crate::coupling::uncorrected::Uncorrected;
@@ -53,7 +54,7 @@ pub struct CoSimulation {
     scheme: Scheme,
     renewal: Renewal,
     plan: TimePlan,
-    /// Present if the macro step varies.
+    /// Present if the macro step or the degrees follow the error.
     step_size: Option<StepSize>,
     ceiling: Ceiling,
     row: Row,
@@ -134,13 +135,15 @@ impl CoSimulation {
         };
         let step = outcome.step;
         self.last_length = step.length;
-        self.row.read(step, &self.parts, self.scheme.multipliers());
+        let degrees = self.scheme.degrees();
+        let multipliers = self.scheme.multipliers();
+        self.row.read(step, degrees, &self.parts, multipliers);
         if let Some(step_size) = &mut self.step_size {
             step_size.observe(&self.parts);
         }
         self.guard.judge(step, &self.row, &self.parts.layout)?;
         self.statistics
-            .count(&outcome, started.elapsed(), &self.row);
+            .count(&outcome, degrees, started.elapsed(), &self.row);
         Ok(true)
     }
 
@@ -197,8 +200,9 @@ impl CoSimulation {
             }
             Scheme::Uncorrected(method) => method.multipliers_at(&self.parts, place, multipliers),
         }
+        let degrees = self.scheme.degrees();
         self.sample_row
-            .read_sample(sample, place, &self.parts, &self.multipliers);
+            .read_sample(sample, degrees, place, &self.parts, &self.multipliers);
         Some((number, &self.sample_row))
     }
 
@@ -221,7 +225,7 @@ impl CoSimulation {
     /// Counts, times and residuals so far.
     pub fn statistics(&self) -> Statistics {
         let mut statistics = self.statistics.clone();
-        statistics.steps = self.step_size.as_ref().map(|steps| *steps.statistics());
+        statistics.steps = self.step_size.as_ref().and_then(StepSize::statistics);
         for subsystem in &self.parts.subsystems {
             statistics.add_subsystem(subsystem);
         }
@@ -328,6 +332,14 @@ impl Scheme {
         match self {
             Self::Corrected(method) => method.multipliers(),
             Self::Uncorrected(method) => method.multipliers(),
+        }
+    }
+
+    /// Degrees of the polynomials over the last macro step, as far as they follow the estimates.
+    pub(crate) fn degrees(&self) -> StepDegrees {
+        match self {
+            Self::Corrected(method) => method.degrees(),
+            Self::Uncorrected(_) => StepDegrees::default(),
         }
     }
 }

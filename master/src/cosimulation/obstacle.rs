@@ -14,7 +14,11 @@ pub(super) struct Obstacle {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Kind {
     /// The error is larger than allowed.
-    Error(Estimate),
+    Error {
+        found: Estimate,
+        /// The error that the step would have had with the degrees of its repetition.
+        next: Estimate,
+    },
     /// The corrections have not come to an end within their number, and the scene rejects such a step. With this share of the step they
     /// would just have, if the rate of convergence tells.
     NotConverged(Option<f64>),

@@ -18,6 +18,7 @@ use super::uncorrected::Ceiling;
 use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
+use crate::coupling::automatic_degrees::{AutomaticDegrees, StepDegrees};
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
@@ -28,7 +29,7 @@ use crate::coupling::semi_implicit::SemiImplicit;
 use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Jacobian, Method, Order, Scene, Spring};
+use crate::scene::{self, Degree, Jacobian, Method, Order, Scene, Spring};
 use crate::signal::{History, Variables};
 use crate::time::{MacroStep, TimePlan};
 
@@ -48,6 +49,8 @@ pub struct Options {
     pub established: Option<Vec<Vec<f64>>>,
     /// Macro steps of these lengths in s, as a run with variable steps has found them, in place of those of the scene.
     pub step_lengths: Option<Vec<f64>>,
+    /// Degrees of the polynomials over every macro step, as a run in which they follow the estimates has found them.
+    pub degrees: Option<Vec<StepDegrees>>,
     /// Record the positions of all markers, also of those that no joint holds: a picture of the mechanism needs them.
     pub record_markers: bool,
 }
@@ -70,7 +73,7 @@ impl CoSimulation {
             connections: &connections,
         };
         let layout = layout_of(scene, &coupled)?;
-        check_degrees(scene, &models, &layout)?;
+        let highest = check_degrees(scene, &models, &layout)?;
         refuse_mixed_degrees(scene, &layout)?;
         let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
         if options.record_markers {
@@ -107,9 +110,11 @@ impl CoSimulation {
         let plan = plan_of(scene, options);
         let mut step_size = step_size_of(scene, options, &parts);
         let steps = (&plan, step_size.as_mut());
-        let scheme = begin(scene, options, initial, &mut parts, steps)?;
-        let mut row = Row::new(&parts, scene.coupling.step_control.is_some());
-        row.read(super::at_start(scene.t_start), &parts, scheme.multipliers());
+        let scheme = begin(scene, options, initial, highest, &mut parts, steps)?;
+        let degrees = scheme.degrees();
+        let mut row = Row::new(&parts, scene.coupling.step_control.is_some(), degrees);
+        let start = super::at_start(scene.t_start);
+        row.read(start, degrees, &parts, scheme.multipliers());
         panels::check(scene, &row)?;
         let mechanism = options
             .record_markers
@@ -232,14 +237,18 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
             let key = format!("connection.{}.to", connection.name);
             Err(scene.error(&key, message, Some(help.into())).into())
         }
-        Some(connection) if degree != exchanged => {
+        Some(connection) if degree != exchanged || degree == Degree::Automatic => {
             let (subsystem, input) = &connection.to;
+            let differ = match degree == exchanged {
+                true => "follow estimates of their own",
+                false => "differ",
+            };
             let message = format!(
                 "\"{}.{input}\" takes this signal and the load of a joint, but coupling.degree = {degree} and \
-                 coupling.exchanged_degree = {exchanged} differ",
+                 coupling.exchanged_degree = {exchanged} {differ}",
                 scene.subsystems[*subsystem].name
             );
-            let help = "give both the same value, or let the signal act at another marker";
+            let help = "give both the same whole number, or let the signal act at another marker";
             let key = format!("connection.{}.to", connection.name);
             Err(scene.error(&key, message, Some(help.into())).into())
         }
@@ -308,6 +317,7 @@ fn begin(
     scene: &Scene,
     options: &Options,
     initial: InitialState,
+    highest: StepDegrees,
     parts: &mut Parts,
     (plan, step_size): (&TimePlan, Option<&mut StepSize>),
 ) -> Result<Scheme, RunError> {
@@ -316,9 +326,10 @@ fn begin(
         variables: mut values,
         attitudes,
     } = initial;
-    let variables = parts
-        .layout
-        .describe_variables(coupling.degree, coupling.exchanged_degree);
+    let variables = parts.layout.describe_variables(
+        coupling.degree.highest(),
+        coupling.exchanged_degree.highest(),
+    );
     let condition = match coupling.method {
         Method::Baumgarte { beta, gamma, .. } => Condition::Baumgarte { beta, gamma },
         Method::Weighted { a, b, .. } => Condition::Weighted { a, b },
@@ -328,7 +339,7 @@ fn begin(
                 .as_ref()
                 .and_then(|values| values.first());
             let variables = Variables {
-                degrees: vec![coupling.exchanged_degree; parts.layout.variables()],
+                degrees: vec![coupling.exchanged_degree.highest(); parts.layout.variables()],
                 rotations: Vec::new(),
             };
             let values = start.map_or(&values[..variables.degrees.len()], |start| start);
@@ -356,23 +367,26 @@ fn begin(
             let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
             write_loads(&springs, &parts.layout, outputs, &mut values);
             let history = history_of(scene, options, variables, &values, attitudes);
-            let degree = coupling.exchanged_degree;
+            let degree = coupling.exchanged_degree.highest();
             let method = Penalty::new(order, springs, history, degree, parts);
             return Ok(Scheme::Uncorrected(Box::new(method)));
         }
         Method::Jacobi { stiffness, damping } => {
             let spring = Spring { stiffness, damping };
-            let method = Springs::new(Order::Jacobi, spring, coupling.degree, parts);
+            let method = Springs::new(Order::Jacobi, spring, coupling.degree.highest(), parts);
             return Ok(Scheme::Uncorrected(Box::new(method)));
         }
         Method::GaussSeidel { stiffness, damping } => {
             let spring = Spring { stiffness, damping };
-            let method = Springs::new(Order::GaussSeidel, spring, coupling.degree, parts);
+            let method = Springs::new(Order::GaussSeidel, spring, coupling.degree.highest(), parts);
             return Ok(Scheme::Uncorrected(Box::new(method)));
         }
     };
     let history = history_of(scene, options, variables, &values, attitudes);
-    let method = SemiImplicit::new(condition, coupling.increment, history, parts);
+    let first = first_step(plan).length;
+    let given = options.degrees.clone();
+    let automatic = AutomaticDegrees::new(coupling.method, &parts.layout, highest, first, given);
+    let method = SemiImplicit::new(condition, coupling.increment, history, automatic, parts);
     begin_corrected(Box::new(method), parts, plan, step_size)
 }
 

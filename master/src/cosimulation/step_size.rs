@@ -2,6 +2,7 @@
 
 use super::obstacle::{Kind, Obstacle};
 use crate::cosimulation::{Options, Parts};
+use crate::coupling::degree_choice::{MOST_GROWTH, Purpose};
 use crate::coupling::error_estimate::{ErrorScales, Estimate};
 use crate::error::RunError;
 use crate::results::StepStatistics;
@@ -14,9 +15,6 @@ const SAFETY: f64 = 0.9;
 /// Exponents of the controller, per order: proportional-integral, so that the step length does not swing.
 const INTEGRAL: f64 = 0.7;
 const PROPORTIONAL: f64 = 0.4;
-
-/// A step is at most this many times as long as the one before. More would make the polynomials over unequal steps unstable.
-const MOST_GROWTH: f64 = 2.0;
 
 /// A repeated step has at least this share of the rejected one.
 const MOST_SHRINKING: f64 = 0.1;
@@ -52,6 +50,7 @@ const CAREFUL_STEPS: u32 = 20;
 /// Chooses the lengths of the macro steps.
 pub struct StepSize {
     control: StepControl,
+    rule: Rule,
     scales: ErrorScales,
     /// Length of the first step in s.
     first: f64,
@@ -66,6 +65,17 @@ pub struct StepSize {
     /// Length that steps do not exceed, and how many more of them.
     careful: Option<(f64, u32)>,
     statistics: StepStatistics,
+}
+
+/// Where the lengths come from. If they are known beforehand, every step is accepted, and what remains to be chosen are degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Rule {
+    /// They follow the error.
+    Free,
+    /// From a run in which they did.
+    Given,
+    /// They are all equal.
+    Equal,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,8 +95,9 @@ pub(super) struct Repetition {
 
 impl StepSize {
     /// From a first step of length `first` in a run over `span` s, at a start whose outputs are known.
-    pub fn new(control: StepControl, first: f64, span: f64, parts: &Parts) -> Self {
+    fn new(rule: Rule, control: StepControl, first: f64, span: f64, parts: &Parts) -> Self {
         Self {
+            rule,
             scales: ErrorScales::new(&control, span, parts),
             control,
             first,
@@ -104,9 +115,23 @@ impl StepSize {
         &self.scales
     }
 
-    /// Steps so far.
-    pub fn statistics(&self) -> &StepStatistics {
-        &self.statistics
+    /// Whether the lengths follow the error.
+    pub fn varies(&self) -> bool {
+        self.rule == Rule::Free
+    }
+
+    /// Steps so far, if their lengths follow the error.
+    pub fn statistics(&self) -> Option<StepStatistics> {
+        self.varies().then_some(self.statistics)
+    }
+
+    /// What degrees are chosen for, after a step with this error.
+    pub fn purpose(&self, estimate: &Estimate) -> Purpose {
+        match self.rule {
+            Rule::Free if estimate.scaled > 1.0 => Purpose::Repetition,
+            Rule::Free | Rule::Given => Purpose::LongestStep,
+            Rule::Equal => Purpose::SmallestError,
+        }
     }
 
     /// Keeps what has become of the look-ahead over the next step until that step is attempted.
@@ -121,18 +146,23 @@ impl StepSize {
             .map_or(Ok(()), |error| Err(error.into()))
     }
 
-    /// The error of the step must be small enough.
+    /// The error of the step must be small enough, unless the lengths are given; `next` is the error that it would have had with the
+    /// degrees that have been chosen for what follows.
     pub(super) fn check_error(
         &self,
         step: MacroStep,
         estimate: &Estimate,
+        next: &Estimate,
         parts: &Parts,
     ) -> Result<(), Obstacle> {
-        if estimate.scaled <= 1.0 {
+        if self.purpose(estimate) != Purpose::Repetition {
             return Ok(());
         }
         Err(Obstacle {
-            kind: Kind::Error(*estimate),
+            kind: Kind::Error {
+                found: *estimate,
+                next: *next,
+            },
             error: Box::new(RunError::LeastStep {
                 t: step.start,
                 step: step.length,
@@ -150,7 +180,8 @@ impl StepSize {
         obstacle: Obstacle,
     ) -> Result<Repetition, RunError> {
         let Obstacle { kind, error } = obstacle;
-        if kind == Kind::Failed && !error.may_vanish_with_a_shorter_step() {
+        let is_final = kind == Kind::Failed && !error.may_vanish_with_a_shorter_step();
+        if is_final || !self.varies() {
             return Err(*error);
         }
         if step.length <= self.control.least_step {
@@ -158,8 +189,8 @@ impl StepSize {
         }
         let causes = &mut self.statistics.rejected_by_cause;
         let (count, share) = match kind {
-            Kind::Error(estimate) => {
-                let share = SAFETY * estimate.scaled.powf(-1.0 / estimate.order as f64);
+            Kind::Error { next, .. } => {
+                let share = SAFETY * next.scaled.powf(-1.0 / next.order as f64);
                 (&mut causes.error, share)
             }
             Kind::NotConverged(share) => {
@@ -174,7 +205,7 @@ impl StepSize {
         let length = step.length * share.clamp(MOST_SHRINKING, SAFETY);
         let length = self.allowed(length);
         let has_jumped = match kind {
-            Kind::Error(estimate) => self.has_jumped(step, estimate.change),
+            Kind::Error { found, next } => self.has_jumped(step, found.change, next.change),
             Kind::NotConverged(_) | Kind::Failed => {
                 self.careful = Some((length.max(step.length / MOST_GROWTH), CAREFUL_STEPS));
                 false
@@ -184,21 +215,30 @@ impl StepSize {
     }
 
     /// Whether the multipliers change hardly less in the present attempt at a step than in the one before, which was longer.
-    fn has_jumped(&mut self, step: MacroStep, change: f64) -> bool {
+    /// The next attempt has the degrees that belong to the change `next`.
+    fn has_jumped(&mut self, step: MacroStep, change: f64, next: f64) -> bool {
         let length = step.length;
-        let earlier = self.rejected.replace(Rejected { length, change });
+        let change_of_next = Rejected {
+            length,
+            change: next,
+        };
+        let earlier = self.rejected.replace(change_of_next);
         earlier.is_some_and(|earlier| {
             let expected = (length / earlier.length).powf(SMOOTH_ORDER);
             change > expected * earlier.change
         })
     }
 
-    /// Takes the step; the length of the next one in s.
-    pub fn accept(&mut self, step: MacroStep, estimate: &Estimate) -> f64 {
+    /// Takes the step; the length of the next one in s. The `estimate` is that of the degrees that follow; errors before are compared only
+    /// if the degrees stay.
+    pub fn accept(&mut self, step: MacroStep, estimate: &Estimate, has_equal_degrees: bool) -> f64 {
         let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
         let scaled = estimate.scaled.max(LEAST_ERROR);
         let possible = SAFETY * power(scaled, -1.0);
-        let smooth = SAFETY * power(scaled, -INTEGRAL) * power(self.before, PROPORTIONAL);
+        let smooth = match has_equal_degrees {
+            true => SAFETY * power(scaled, -INTEGRAL) * power(self.before, PROPORTIONAL),
+            false => possible,
+        };
         let most = if self.is_repeated { 1.0 } else { MOST_GROWTH };
         let mut wish = match possible {
             KEEP_FROM..=KEEP_TO => step.length,
@@ -247,12 +287,23 @@ pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
     }
 }
 
-/// The control of the steps, if the scene asks for one; outputs at the start are known.
+/// Against which the errors of degrees are compared where no error is too large: only their ratios matter.
+const ANY_ERROR: StepControl = StepControl {
+    tolerance: 1.0,
+    absolute_tolerance: 1e-3,
+    least_step: 0.0,
+    greatest_step: f64::INFINITY,
+};
+
+/// The control of the steps, if the scene asks for one, or of the degrees; outputs at the start are known.
 pub(super) fn step_size_of(scene: &Scene, options: &Options, parts: &Parts) -> Option<StepSize> {
-    let control = scene.coupling.step_control?;
-    if options.step_lengths.is_some() {
-        return None;
-    }
+    let coupling = &scene.coupling;
+    let (rule, control) = match (coupling.step_control, &options.step_lengths) {
+        (Some(control), None) => (Rule::Free, control),
+        _ if !coupling.has_automatic_degree() => return None,
+        (Some(control), Some(_)) => (Rule::Given, control),
+        (None, _) => (Rule::Equal, ANY_ERROR),
+    };
     let (first, span) = (scene.coupling.macro_step, scene.t_end - scene.t_start);
-    Some(StepSize::new(control, first, span, parts))
+    Some(StepSize::new(rule, control, first, span, parts))
 }

@@ -43,8 +43,8 @@ fn advance_until_accepted(
     let mut outcome = Outcome::of_step(first, method.advance(parts, first)?);
     loop {
         let estimate = method.error_estimate(parts, outcome.step, step_size.scales());
-        let Err(obstacle) = step_size.check_error(outcome.step, &estimate, parts) else {
-            let wish = step_size.accept(outcome.step, &estimate);
+        let Err(obstacle) = step_size.check_error(outcome.step, &estimate, &estimate, parts) else {
+            let wish = step_size.accept(outcome.step, &estimate, true);
             return Ok((outcome, wish));
         };
         let repetition = step_size.repeat(outcome.step, obstacle)?;

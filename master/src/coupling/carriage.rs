@@ -28,22 +28,41 @@ pub struct Carriage {
     shape: Shape,
 }
 
-/// To what columns belong: the length of a look-ahead in s, and the past nodes of the polynomials that were raised, if they have any.
+/// The past nodes of the polynomials that are raised, if they have any, and how many of them each uses.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Nodes<'a> {
+    /// Times of past macro points relative to the present one in s.
+    pub times: &'a [f64],
+    /// Degrees of the polynomials of all coupling variables.
+    pub degrees: &'a [usize],
+}
+
+/// To what columns belong: the length of a look-ahead in s, and the nodes.
 #[derive(Debug, Clone, Default, PartialEq)]
 struct Shape {
     length: f64,
-    nodes: Vec<f64>,
+    times: Vec<f64>,
+    degrees: Vec<usize>,
 }
 
 impl Shape {
-    fn set(&mut self, length: f64, nodes: &[f64]) {
+    fn set(&mut self, length: f64, nodes: Nodes<'_>) {
         self.length = length;
-        self.nodes.clear();
-        self.nodes.extend_from_slice(nodes);
+        self.times.clear();
+        self.times.extend_from_slice(nodes.times);
+        self.degrees.clear();
+        self.degrees.extend_from_slice(nodes.degrees);
     }
 
-    fn is(&self, length: f64, nodes: &[f64]) -> bool {
-        self.length == length && self.nodes == nodes
+    fn is(&self, length: f64, nodes: Nodes<'_>) -> bool {
+        self.length == length && self.times == nodes.times && self.degrees == nodes.degrees
+    }
+
+    fn nodes(&self) -> Nodes<'_> {
+        Nodes {
+            times: &self.times,
+            degrees: &self.degrees,
+        }
     }
 }
 
@@ -72,13 +91,13 @@ impl Carriage {
     }
 
     /// Whether there are columns of this shape.
-    pub fn has(&self, length: f64, nodes: &[f64]) -> bool {
+    pub fn has(&self, length: f64, nodes: Nodes<'_>) -> bool {
         self.settled.iter().any(|one| one.shape.is(length, nodes))
     }
 
     /// Begins with the first look-ahead over a macro step, or over a repeated one: what was measured for a step that is not taken is
     /// dropped. Gives whether the macro step before had this shape.
-    pub fn begin(&mut self, length: f64, nodes: &[f64]) -> bool {
+    pub fn begin(&mut self, length: f64, nodes: Nodes<'_>) -> bool {
         self.is_pending = false;
         self.shape.set(length, nodes);
         self.settled
@@ -111,7 +130,7 @@ impl Carriage {
         columns: &[Column],
     ) {
         let pending = &mut self.pending;
-        pending.shape.set(self.shape.length, &self.shape.nodes);
+        pending.shape.set(self.shape.length, self.shape.nodes());
         pending.columns.resize_with(columns.len(), Vec::new);
         for (measured, column) in pending.columns.iter_mut().zip(columns) {
             measured.clone_from(&column.derivatives);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::carriage::Carriage;
+use super::carriage::{Carriage, Nodes};
 use super::layout::{DrivenInput, Layout, Over};
 use super::unknowns::Unknowns;
 use crate::cosimulation::{Ahead, Parts};
@@ -139,13 +139,13 @@ impl Columns {
     }
 
     /// Whether there are columns of an earlier macro step for a look-ahead of this length with these past nodes.
-    pub fn has(&self, length: f64, nodes: &[f64]) -> bool {
+    pub fn has(&self, length: f64, nodes: Nodes<'_>) -> bool {
         self.carriage.has(length, nodes)
     }
 
     /// Begins with the first look-ahead over a macro step, or over a repeated one, of this length and with these past nodes. Gives
     /// whether the macro step before was such a one.
-    pub fn begin(&mut self, length: f64, nodes: &[f64]) -> bool {
+    pub fn begin(&mut self, length: f64, nodes: Nodes<'_>) -> bool {
         self.carriage.begin(length, nodes)
     }
 

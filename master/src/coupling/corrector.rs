@@ -1,5 +1,7 @@
 //! What a predictor/corrector method does in a macro step; in which order is told by the co-simulation.
 
+use super::automatic_degrees::StepDegrees;
+use super::degree_choice::Purpose;
 use super::error_estimate::{ErrorScales, Estimate};
 use crate::cosimulation::Parts;
 use crate::coupling::measure::Change;
@@ -29,6 +31,24 @@ pub(crate) trait Corrector: Send {
     /// The error of the step that [`Corrector::correct`] has just solved, before any worker has taken it: from predicted against
     /// corrected coupling variables.
     fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate;
+
+    /// Chooses the degrees of the polynomials, where they follow the estimates, for the next step or for a repetition of this one. Comes
+    /// after [`Corrector::error_estimate`]; the error that the step would have had with them: the `estimate` itself if they stay.
+    fn choose_degrees(
+        &mut self,
+        _parts: &Parts,
+        _step: MacroStep,
+        _scales: &ErrorScales,
+        estimate: &Estimate,
+        _purpose: Purpose,
+    ) -> Estimate {
+        *estimate
+    }
+
+    /// Degrees of the polynomials over the step that [`Corrector::move_on`] took, as far as they follow the estimates.
+    fn degrees(&self) -> StepDegrees {
+        StepDegrees::default()
+    }
 
     /// The loads jump in the present step: what they were before is no help.
     fn restart(&mut self);

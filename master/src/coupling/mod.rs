@@ -8,6 +8,7 @@
 //! * [`columns`]: increments and finite differences;
 //! * [`position_error`]: errors of positions by those of the multipliers;
 //! * [`error_estimate`]: the error of a macro step against the tolerance;
+//! * [`degree_choice`], [`automatic_degrees`]: degrees of polynomials that follow the estimates;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
 //! * [`uncorrected`]: what a method without a corrector does in a macro step;
 //! * [`unbalanced`]: errors of positions by loads that act on one end of a joint only;
@@ -15,10 +16,12 @@
 //! * [`promise`]: what a correction promises, and what the workers make of it;
 //! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
 
+pub mod automatic_degrees;
 pub mod carriage;
 pub mod columns;
 pub mod condition;
 pub mod corrector;
+pub mod degree_choice;
 pub mod error_estimate;
 pub mod explicit;
 pub mod hermite;

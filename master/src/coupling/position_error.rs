@@ -40,9 +40,8 @@ impl PositionErrors {
         }
     }
 
-    /// Adds the errors of the positions at all joints, which are the columns times the errors of the multipliers, and the openings of the
-    /// joints at the end of the step.
-    pub fn estimate(
+    /// Adds the errors of the positions at all joints, which are the columns times the errors of the multipliers.
+    pub fn add_errors(
         &mut self,
         parts: &Parts,
         step: MacroStep,
@@ -55,6 +54,17 @@ impl PositionErrors {
         for number in 0..parts.layout.joints.len() {
             self.estimate_joint(parts, number, step, correction, scales, estimate);
         }
+    }
+
+    /// Adds the openings of the joints at the end of the step.
+    pub fn add_openings(
+        &mut self,
+        parts: &Parts,
+        correction: Correction<'_>,
+        scales: &ErrorScales,
+        estimate: &mut Estimate,
+    ) {
+        let system = correction.system;
         system.shift(Level::Position, correction.change, &mut self.shift);
         let rows = parts.layout.rows.len();
         let openings = system.residual(Level::Position).iter().zip(&self.shift);

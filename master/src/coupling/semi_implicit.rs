@@ -1,12 +1,17 @@
 //! The semi-implicit predictor/corrector methods of Schweizer & Lu (S1 Sects. 2 and 3.3).
 
+mod errors;
+
+use super::automatic_degrees::{AutomaticDegrees, StepDegrees};
+use super::carriage::Nodes;
 use super::columns::{Columns, Look};
 use super::condition::{Condition, check_finite};
 use super::corrector::{Again, Corrector, Missed};
-use super::error_estimate::{ErrorScales, Estimate, Suspect};
+use super::degree_choice::Purpose;
+use super::error_estimate::{ErrorScales, Estimate};
 use super::layout::Over;
 use super::measure::{Change, Measure};
-use super::position_error::{Correction, PositionErrors};
+use super::position_error::PositionErrors;
 use super::promise::Promise;
 use super::shortfall::Shortfall;
 use super::solve::LinearSolver;
@@ -16,7 +21,7 @@ use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
 use crate::results::Verdict;
 use crate::scene::Increment;
-use crate::signal::{Curve, ErrorShares, History, Lagrange};
+use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
 
 /// State of a semi-implicit method between two macro steps.
@@ -50,6 +55,8 @@ pub struct SemiImplicit {
     continues: bool,
     /// Length of the step that was corrected last.
     solved: f64,
+    /// Present if degrees follow the estimates.
+    automatic: Option<AutomaticDegrees>,
 }
 
 impl SemiImplicit {
@@ -57,9 +64,13 @@ impl SemiImplicit {
     pub fn new(
         condition: Condition,
         increment: Increment,
-        history: History,
+        mut history: History,
+        mut automatic: Option<AutomaticDegrees>,
         parts: &Parts,
     ) -> Self {
+        if let Some(automatic) = &mut automatic {
+            automatic.begin(&mut history);
+        }
         let size = parts.layout.variables();
         let zeros = || vec![0.0; size];
         let unknowns = Unknowns::ends(&parts.layout);
@@ -86,21 +97,17 @@ impl SemiImplicit {
             is_first: true,
             continues: false,
             solved: 0.0,
+            automatic,
             system,
         }
     }
 }
 
-impl SemiImplicit {
-    /// Errors of the multipliers as positions feel them.
-    fn find_load_errors(&mut self, step: MacroStep, estimate: &mut Estimate) -> ErrorShares {
-        let mut shares = ErrorShares::default();
-        for row in 0..self.rows {
-            shares = self.history.error_shares(row, step.length);
-            self.load_errors[row] = shares.position * self.change[row];
-            estimate.change = estimate.change.max(self.change[row].abs());
-        }
-        shares
+/// Past nodes and degrees of the polynomials over the next step.
+fn nodes_of(history: &History) -> Nodes<'_> {
+    Nodes {
+        times: history.reached_times(),
+        degrees: history.degrees(),
     }
 }
 
@@ -140,37 +147,33 @@ impl Corrector for SemiImplicit {
         check_finite(&self.corrected, parts, step)
     }
 
-    /// Positions: the columns times the errors of the multipliers. Exchanged variables: the mean error of their curves over the step.
-    ///
-    /// A joint closes again what its multipliers have missed, so errors of position by multipliers do not add up over the steps. Those
-    /// by exchanged variables do, which makes the error of the motion as large, relative to its size, as that of the curves.
     fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
-        let mut estimate = Estimate::NONE;
-        let shares = self.find_load_errors(step, &mut estimate);
-        let correction = Correction {
-            system: &self.system,
-            columns: &self.columns,
-            change: &self.change,
-            errors: &self.load_errors,
-            share: shares.position,
-            order: shares.order + 2,
-        };
-        self.position_errors
-            .estimate(parts, step, correction, scales, &mut estimate);
-        for exchanged in &parts.layout.exchanged {
-            let allowed = scales.allowed_of_variable(exchanged.subsystem, exchanged.what);
-            for variable in exchanged.first..exchanged.first + exchanged.size() {
-                let shares = self.history.error_shares(variable, step.length);
-                let error = shares.mean * self.change[variable];
-                let suspect = Suspect::Variable(variable);
-                estimate.add(error.abs() / allowed, shares.order, suspect);
-            }
+        self.estimate(parts, step, scales)
+    }
+
+    fn choose_degrees(
+        &mut self,
+        parts: &Parts,
+        step: MacroStep,
+        scales: &ErrorScales,
+        estimate: &Estimate,
+        purpose: Purpose,
+    ) -> Estimate {
+        self.choose(parts, step, scales, estimate, purpose)
+    }
+
+    fn degrees(&self) -> StepDegrees {
+        match &self.automatic {
+            Some(automatic) => automatic.of_last_step(&self.before),
+            None => StepDegrees::default(),
         }
-        estimate
     }
 
     fn restart(&mut self) {
         self.history.restart(self.rows);
+        if let Some(automatic) = &mut self.automatic {
+            automatic.restart(&mut self.history);
+        }
     }
 
     /// S1 eq. (69): the interpolation through the corrected end value.
@@ -217,13 +220,16 @@ impl Corrector for SemiImplicit {
         self.columns.request(parts, look, &mut self.memory);
         self.is_first = true;
         self.promise.forget();
-        self.continues = self.columns.begin(length, self.history.times()) && !with_columns;
+        self.continues = self.columns.begin(length, nodes_of(&self.history)) && !with_columns;
         Ok(())
     }
 
     fn move_on(&mut self, step: MacroStep) {
         self.before.copy_from(&self.history);
         self.history.push(step.length, &self.corrected);
+        if let Some(automatic) = &mut self.automatic {
+            automatic.move_on(&mut self.history);
+        }
         self.columns.settle(step.length);
         self.measure.move_on();
         if !self.continues {
@@ -279,7 +285,7 @@ impl Again for SemiImplicit {
     }
 
     fn has_columns(&self, step: MacroStep) -> bool {
-        self.columns.has(step.length, self.history.times())
+        self.columns.has(step.length, nodes_of(&self.history))
     }
 
     /// The solution for the conditions at the corrected outputs, with the matrix of the correction.

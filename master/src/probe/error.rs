@@ -14,6 +14,12 @@ pub enum ProbeError {
         /// The joint or connection.
         name: String,
     },
+    /// The number of multipliers that are remembered changes.
+    #[error(
+        "coupling.degree = \"automatic\" changes from step to step how many multipliers are remembered; the macro-step map can be \
+         had for whole numbers only, so use a map by simulation"
+    )]
+    ChangesDegree,
     /// The co-simulation could not start or failed within its first steps.
     #[error(transparent)]
     Run(#[from] RunError),

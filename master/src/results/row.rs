@@ -1,12 +1,17 @@
 //! The values at one macro point.
 
 use crate::cosimulation::Parts;
+use crate::coupling::automatic_degrees::StepDegrees;
 use crate::coupling::system::motion_of;
 use crate::joint::Level;
 use crate::time::MacroStep;
 
 /// The column of variable macro steps.
 const STEP: &str = "step";
+
+/// The columns of degrees that follow the estimates.
+const DEGREE: &str = "degree";
+const EXCHANGED_DEGREE: &str = "exchanged_degree";
 
 /// Time, outputs, multipliers and residuals at one macro point, in the order of the result columns.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +23,8 @@ pub struct Row {
     first_multiplier: usize,
     first_residual: usize,
     levels: usize,
+    /// The first column that tells of the macro step itself.
+    first_of_step: usize,
     shows_step: bool,
 }
 
@@ -35,8 +42,8 @@ pub enum Drawn {
 }
 
 impl Row {
-    /// `shows_step`: the length of the macro step is a column.
-    pub(crate) fn new(parts: &Parts, shows_step: bool) -> Self {
+    /// `shows_step`: the length of the macro step is a column; so are the `degrees` that there are.
+    pub(crate) fn new(parts: &Parts, shows_step: bool, degrees: StepDegrees) -> Self {
         let mut columns = vec!["t".to_owned()];
         let mut first_outputs = Vec::new();
         for subsystem in &parts.subsystems {
@@ -68,9 +75,14 @@ impl Row {
             };
             columns.extend(levels.iter().map(name));
         }
-        if shows_step {
-            columns.push(STEP.to_owned());
-        }
+        let first_of_step = columns.len();
+        let of_step = [
+            (shows_step, STEP),
+            (degrees.multipliers.is_some(), DEGREE),
+            (degrees.exchanged.is_some(), EXCHANGED_DEGREE),
+        ];
+        let of_step = of_step.into_iter().filter(|(is_shown, _)| *is_shown);
+        columns.extend(of_step.map(|(_, name)| name.to_owned()));
         Self {
             values: vec![0.0; columns.len()],
             columns,
@@ -79,31 +91,40 @@ impl Row {
             first_multiplier,
             first_residual,
             levels: levels.len(),
+            first_of_step,
             shows_step,
         }
     }
 
-    /// Reads the values at the end of `step`.
-    pub(crate) fn read(&mut self, step: MacroStep, parts: &Parts, multipliers: &[f64]) {
+    /// Reads the values at the end of `step`, whose polynomials had these `degrees`.
+    pub(crate) fn read(
+        &mut self,
+        step: MacroStep,
+        degrees: StepDegrees,
+        parts: &Parts,
+        multipliers: &[f64],
+    ) {
         let outputs = |subsystem: usize| &parts.subsystems[subsystem].outputs[..];
-        self.read_at(step, parts, outputs, multipliers);
+        self.read_at(step, degrees, parts, outputs, multipliers);
     }
 
     /// Reads the values at a sample inside the macro step; `sample` lasts until there.
     pub(crate) fn read_sample(
         &mut self,
         sample: MacroStep,
+        degrees: StepDegrees,
         place: usize,
         parts: &Parts,
         multipliers: &[f64],
     ) {
         let outputs = |subsystem: usize| parts.subsystems[subsystem].sample(place);
-        self.read_at(sample, parts, outputs, multipliers);
+        self.read_at(sample, degrees, parts, outputs, multipliers);
     }
 
     fn read_at<'a>(
         &mut self,
         step: MacroStep,
+        degrees: StepDegrees,
         parts: &Parts,
         outputs: impl Fn(usize) -> &'a [f64],
         multipliers: &[f64],
@@ -124,10 +145,13 @@ impl Row {
         if self.shows_step {
             self.values.push(step.length);
         }
+        let degrees = [degrees.multipliers, degrees.exchanged];
+        let degrees = degrees.into_iter().flatten();
+        self.values.extend(degrees.map(|degree| degree as f64));
     }
 
     /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`; `step` where it varies, the length
-    /// of the macro step that ends here.
+    /// of the macro step that ends here; `degree` and `exchanged_degree` where they follow the estimates, those of its polynomials.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
@@ -148,7 +172,7 @@ impl Row {
         if (self.first_multiplier..self.first_residual).contains(&place) {
             return Some(Drawn::Multiplier);
         }
-        if self.shows_step && place + 1 == self.columns.len() {
+        if place >= self.first_of_step {
             return None;
         }
         if place >= self.first_residual {

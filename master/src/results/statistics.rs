@@ -6,7 +6,9 @@ use serde::Serialize;
 
 use super::{Integrations, Row, Verdict};
 use crate::cosimulation::{FreeVelocity, Outcome, Passes, Subsystem};
+use crate::coupling::automatic_degrees::StepDegrees;
 use crate::coupling::layout::Layout;
+use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
 
 /// What a run cost and how well its joints held.
@@ -32,6 +34,8 @@ pub struct Statistics {
     pub time_in_solvers: f64,
     /// Lengths of variable macro steps; absent if they do not vary.
     pub steps: Option<StepStatistics>,
+    /// Macro steps by the degree of their polynomials; absent where no degree follows the estimates.
+    pub degrees: Option<DegreeStatistics>,
     /// Steps by verdict.
     pub verdicts: Verdicts,
     /// Largest residuals of every joint.
@@ -118,6 +122,29 @@ impl StepStatistics {
     }
 }
 
+/// Number of macro steps by the degree of the polynomials, from 0 on, with which they were corrected.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+pub struct DegreeStatistics {
+    /// Those of multipliers, if they follow the estimates.
+    pub multipliers: Option<[u64; MAX_DEGREE + 1]>,
+    /// Those of exchanged variables, if they follow the estimates.
+    pub exchanged: Option<[u64; MAX_DEGREE + 1]>,
+}
+
+impl DegreeStatistics {
+    fn count(&mut self, degrees: StepDegrees) {
+        let groups = [
+            (&mut self.multipliers, degrees.multipliers),
+            (&mut self.exchanged, degrees.exchanged),
+        ];
+        for (steps, degree) in groups {
+            if let Some(degree) = degree {
+                steps.get_or_insert_default()[degree] += 1;
+            }
+        }
+    }
+}
+
 /// Number of macro steps by verdict.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 pub struct Verdicts {
@@ -180,11 +207,20 @@ impl Statistics {
         statistics
     }
 
-    pub(crate) fn count(&mut self, outcome: &Outcome, time: Duration, row: &Row) {
+    pub(crate) fn count(
+        &mut self,
+        outcome: &Outcome,
+        degrees: StepDegrees,
+        time: Duration,
+        row: &Row,
+    ) {
         self.macro_steps += 1;
         self.time_total += time.as_secs_f64();
         self.time_solving += outcome.solving.as_secs_f64();
         self.corrections.count(&outcome.passes);
+        if degrees != StepDegrees::default() {
+            self.degrees.get_or_insert_default().count(degrees);
+        }
         let verdicts = &mut self.verdicts;
         *match outcome.verdict {
             Verdict::Uncorrected => &mut verdicts.uncorrected,

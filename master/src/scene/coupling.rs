@@ -1,23 +1,23 @@
 //! Reads `[coupling]`: method, parameters, degree and macro step.
 
+use super::degree::{self, Degrees};
 use super::error_kind::{Names, SceneErrorKind};
 use super::formula::{Formula, Unit};
 use super::index::Weights;
 use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
 use super::resolved::{
-    Coupling, Increment, Iterations, Jacobian, Loads, Method, Order, Otherwise, Spring, Variant,
+    Coupling, Degree, Increment, Iterations, Jacobian, Loads, Method, Order, Otherwise, Spring,
+    Variant,
 };
 use super::step_control::{self, MacroSteps};
 use super::written::Value;
+use crate::signal::MAX_DEGREE;
 
 /// Name of the macro step.
 pub(super) const MACRO_STEP: &str = "macro_step";
 
 /// The key whose override changes which other keys there are.
 pub(super) const METHOD_KEY: &str = "coupling.method";
-
-/// Highest degree of the coupling polynomials.
-const HIGHEST_DEGREE: usize = 3;
 
 /// Keys that every method has.
 const COMMON: [&str; 9] = [
@@ -131,18 +131,27 @@ impl Kind {
     fn highest_degree(self) -> usize {
         match self {
             Self::Explicit => 0,
-            _ => HIGHEST_DEGREE,
+            _ => MAX_DEGREE,
         }
     }
 
-    fn default_degree(self) -> usize {
-        self.highest_degree().min(1)
+    fn default_degree(self) -> Degree {
+        Degree::Fixed(self.highest_degree().min(1))
     }
 
-    fn default_exchanged_degree(self, degree: usize) -> usize {
-        match self {
-            Self::Hermite => HIGHEST_DEGREE,
-            _ => self.highest_degree().min(degree.max(2)),
+    fn default_exchanged_degree(self, degree: Degree) -> Degree {
+        match (self, degree) {
+            (Self::Hermite, _) => Degree::Fixed(MAX_DEGREE),
+            (_, Degree::Automatic) => Degree::Automatic,
+            (_, Degree::Fixed(degree)) => Degree::Fixed(self.highest_degree().min(degree.max(2))),
+        }
+    }
+
+    fn degrees(self) -> Degrees {
+        Degrees {
+            method: self.name(),
+            highest: self.highest_degree(),
+            may_change: matches!(self, Self::Baumgarte | Self::Weighted),
         }
     }
 }
@@ -177,15 +186,14 @@ pub(super) fn read(
         .map_or(Some(Increment::Automatic), |field| {
             read_increment(&field, problems)
         });
-    let highest = kind.map_or(HIGHEST_DEGREE, Kind::highest_degree);
     let method = kind.and_then(|kind| read_method(kind, section, steps.as_ref(), problems));
     let degree = match (section.get("degree"), kind, method) {
-        (_, _, Some(Method::Hermite { variant })) => Some(variant.degree()),
-        (Some(field), ..) => field.whole(0, highest, problems),
+        (_, _, Some(Method::Hermite { variant })) => Some(Degree::Fixed(variant.degree())),
+        (Some(field), ..) => degree::read(&field, kind.map(Kind::degrees), problems),
         (None, kind, _) => kind.map(Kind::default_degree),
     };
     let exchanged_degree = match (section.get("exchanged_degree"), kind, degree) {
-        (Some(field), ..) => field.whole(0, highest, problems),
+        (Some(field), ..) => degree::read(&field, kind.map(Kind::degrees), problems),
         (None, Some(kind), Some(degree)) => Some(kind.default_exchanged_degree(degree)),
         (None, ..) => None,
     };

@@ -113,6 +113,19 @@ pub enum SceneErrorKind {
         /// The value.
         found: String,
     },
+    /// A degree that follows estimates which the method does not have.
+    #[error(
+        "`{key}` = \"automatic\" comes with baumgarte and weighted, whose corrected values tell the error of every degree; \
+         the method `{method}` takes a whole number"
+    )]
+    NoAutomaticDegree {
+        /// The key.
+        key: String,
+        /// The method.
+        method: &'static str,
+        /// Its highest degree.
+        highest: usize,
+    },
     /// A multiple of the macro step that no number can hold.
     #[error(
         "`{key}` = {formula} is {value:?} for macro_step = {macro_step:?}, which is not a usable number"
@@ -360,6 +373,10 @@ impl SceneErrorKind {
             }
             Self::KeyOfOtherMethod { key, owners, .. } => {
                 Some(format!("remove `{key}`, or choose the method {owners}"))
+            }
+            Self::NoAutomaticDegree { highest: 0, .. } => Some("choose 0, or remove the key".into()),
+            Self::NoAutomaticDegree { highest, .. } => {
+                Some(format!("choose a whole number from 0 to {highest}"))
             }
             Self::MissingKey { example, .. } => Some(format!("for example {example}")),
             Self::IndexContradiction { fits, first, second, .. } => Some(match fits {

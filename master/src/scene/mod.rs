@@ -7,6 +7,7 @@
 
 mod connection;
 mod coupling;
+mod degree;
 mod error;
 mod error_kind;
 mod formula;
@@ -42,11 +43,12 @@ pub use formula::Formula;
 pub use overrides::{NotAnOverride, Override};
 pub use place::Place;
 pub use resolved::{
-    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Geometry, Increment, Index,
+    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, Increment, Index,
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
     Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
     Variant,
 };
+pub(crate) use stability_rules::highest_stable_degree;
 pub use stability_rules::{Warning, warnings};
 pub use study::{
     Measure, Settings, StudyFile, StudyScene, StudySetting, is_study, load_study, parse_study,

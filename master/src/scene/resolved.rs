@@ -9,9 +9,10 @@ use linchpin_proto::v1;
 
 use super::overrides::Override;
 pub use crate::joint::Kind as JointKind;
+pub(super) use coupling::AUTOMATIC_DEGREE;
 pub use coupling::{
-    Coupling, Increment, Index, Iterations, Jacobian, Loads, Method, Order, Otherwise, Spring,
-    StepControl, Variant,
+    Coupling, Degree, Increment, Index, Iterations, Jacobian, Loads, Method, Order, Otherwise,
+    Spring, StepControl, Variant,
 };
 
 /// Who serves a subsystem.

@@ -11,7 +11,7 @@ use std::fmt;
 
 use super::Scene;
 use super::place::Place;
-use super::resolved::{Coupling, Index, Method};
+use super::resolved::{Coupling, Degree, Index, Method};
 
 /// A scene that is sound but known to be unstable.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,19 +77,11 @@ pub fn warnings(scene: &Scene) -> Vec<Warning> {
     }
     let coupling = &scene.coupling;
     let macro_step = shortest_step(coupling);
-    let warning = match (coupling.method, coupling.degree.checked_sub(1)) {
+    let warning = match (coupling.method, coupling.degree) {
         (Method::Explicit { mu }, _) => below_limit_of_mu(macro_step, mu.at(macro_step)),
-        (
-            Method::Hermite { .. }
-            | Method::Penalty { .. }
-            | Method::Jacobi { .. }
-            | Method::GaussSeidel { .. },
-            _,
-        )
-        | (_, None) => None,
-        (method, Some(above_constant)) => RULES
-            .get(above_constant)
-            .and_then(|rule| below_limit(coupling, method, rule)),
+        (method, Degree::Fixed(degree)) => below_limit(method, degree, macro_step),
+        // It does not go beyond the limits.
+        (_, Degree::Automatic) => None,
     };
     warning
         .into_iter()
@@ -107,8 +99,16 @@ fn shortest_step(coupling: &Coupling) -> f64 {
         .map_or(coupling.macro_step, |control| control.least_step)
 }
 
-fn below_limit(coupling: &Coupling, method: Method, rule: &Rule) -> Option<Warning> {
-    let macro_step = shortest_step(coupling);
+/// The highest degree of the polynomials of multipliers that keeps the rules for a macro step of this length in s, as all lower ones do.
+pub(crate) fn highest_stable_degree(method: Method, macro_step: f64) -> usize {
+    let mut degrees = 1..=RULES.len();
+    let unstable = degrees.find(|&degree| below_limit(method, degree, macro_step).is_some());
+    unstable.map_or(RULES.len(), |degree| degree - 1)
+}
+
+/// The rule that a method breaks with a degree; constant polynomials break none.
+fn below_limit(method: Method, degree: usize, macro_step: f64) -> Option<Warning> {
+    let rule = RULES.get(degree.checked_sub(1)?)?;
     match method {
         Method::Baumgarte {
             index: Index::One,
@@ -116,15 +116,15 @@ fn below_limit(coupling: &Coupling, method: Method, rule: &Rule) -> Option<Warni
             gamma,
         } => {
             let [beta, gamma] = [beta, gamma].map(|formula| formula.at(macro_step));
-            below_limit_of_gamma(coupling.degree, rule, macro_step, beta, gamma)
+            below_limit_of_gamma(degree, rule, macro_step, beta, gamma)
         }
         Method::Weighted {
             index: Index::One,
             a,
             b,
-        } => below_limit_of_b(coupling.degree, rule, a, b),
+        } => below_limit_of_b(degree, rule, a, b),
         Method::Baumgarte { index, .. } | Method::Weighted { index, .. } => {
-            Some(high_index(coupling.degree, index))
+            Some(high_index(degree, index))
         }
         Method::Hermite { .. }
         | Method::Explicit { .. }

@@ -1,5 +1,7 @@
 //! Values of the coupling variables at past macro points.
 
+use std::ops::Range;
+
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -89,16 +91,12 @@ impl History {
         &self.attitudes
     }
 
-    /// Times of the macro points relative to the present one, in s: 0, then negative ones.
-    pub fn times(&self) -> &[f64] {
-        &self.times
-    }
-
     /// Takes over the values of another history of the same variables, in memory that is already there.
     pub fn copy_from(&mut self, other: &Self) {
         self.times.clone_from(&other.times);
         self.values.clone_from(&other.values);
         self.attitudes.clone_from(&other.attitudes);
+        self.variables.degrees.clone_from(&other.variables.degrees);
         self.smooth_points.clone_from(&other.smooth_points);
     }
 
@@ -106,6 +104,33 @@ impl History {
     /// value at the end, and from there their degree grows as at the start.
     pub fn restart(&mut self, variables: usize) {
         self.smooth_points[..variables].fill(0);
+    }
+
+    /// The polynomials of some variables have this degree from now on, at most the highest one with which the history began.
+    pub fn set_degree(&mut self, variables: Range<usize>, degree: usize) {
+        self.variables.degrees[variables].fill(degree.min(self.highest));
+    }
+
+    /// Degrees of the polynomials of all variables.
+    pub fn degrees(&self) -> &[usize] {
+        &self.variables.degrees
+    }
+
+    /// Number of points since a variable has jumped; all points if it has not.
+    pub fn smooth_points(&self, variable: usize) -> usize {
+        self.smooth_points[variable]
+    }
+
+    /// Degree of the interpolation of a variable over the next step.
+    pub fn interpolated_degree(&self, variable: usize) -> usize {
+        self.past_nodes(variable, true)
+    }
+
+    /// Times of the macro points that the polynomials of the present degrees reach.
+    pub fn reached_times(&self) -> &[f64] {
+        let degrees = self.variables.degrees.iter();
+        let most = degrees.max().map_or(0, |degree| degree + 1);
+        &self.times[..most.min(self.times.len())]
     }
 
     /// What the difference between interpolation and extrapolation at the end of a step of this length tells of a variable.
@@ -124,6 +149,22 @@ impl History {
     /// at the end.
     pub fn end_miss(&self, variable: usize, step: f64) -> ExtrapolationMiss {
         ExtrapolationMiss::new(&self.times, self.past_nodes(variable, true), step)
+    }
+
+    /// The same for polynomials of another degree, which has one point more: by how much their extrapolation misses the value `end`, and
+    /// what that tells. Responses to a change of the end value are those of the present interpolation.
+    pub fn miss_of_degree(
+        &self,
+        variable: usize,
+        degree: usize,
+        end: f64,
+        step: f64,
+    ) -> (f64, ErrorShares) {
+        let extrapolated = (degree + 1).min(self.times.len());
+        let interpolated = self.past_nodes(variable, true);
+        let shares = ErrorShares::new(&self.times, extrapolated, interpolated, step);
+        let value = self.value_of_nodes(variable, extrapolated, None, step, step);
+        (end - value, shares)
     }
 
     /// Moves on by one macro step of the given length; `values` belong to its end.
@@ -184,7 +225,7 @@ impl History {
         }
     }
 
-    /// Highest degree of the polynomial of a variable.
+    /// Degree of the polynomial of a variable, which it has as soon as there are enough points.
     pub fn degree(&self, variable: usize) -> usize {
         self.variables.degrees[variable]
     }
@@ -223,6 +264,17 @@ impl History {
     /// Value at `tau` of one variable's interpolation through the end value `end`, or of its extrapolation.
     pub fn value_through(&self, variable: usize, end: Option<f64>, step: f64, tau: f64) -> f64 {
         let past = self.past_nodes(variable, end.is_some());
+        self.value_of_nodes(variable, past, end, step, tau)
+    }
+
+    fn value_of_nodes(
+        &self,
+        variable: usize,
+        past: usize,
+        end: Option<f64>,
+        step: f64,
+        tau: f64,
+    ) -> f64 {
         let (mut nodes, mut values) = ([0.0; MAX_DEGREE + 1], [0.0; MAX_DEGREE + 1]);
         let mut len = 0;
         if let Some(end) = end {

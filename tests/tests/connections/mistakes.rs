@@ -148,6 +148,25 @@ fn methods_that_connect_no_signals() {
     }
 }
 
+/// Both would be of degrees of their own.
+#[test]
+fn a_signal_and_a_load_of_automatic_degrees_at_one_input() {
+    let moment = "[[connection]]\nname = \"brake\"\nfrom = \"link2.rate\"\nto = \"motor.shaft_moment\" # both\n\n[[joint]]";
+    refused(
+        &[
+            ("[[joint]]", moment),
+            ("degree = 1 ", "degree = \"automatic\"\nloads = \"master\" "),
+            ("exchanged_degree = 2 ", "# "),
+        ],
+        "# both",
+        &[
+            "coupling.degree = \"automatic\"",
+            "follow estimates of their own",
+            "give both the same whole number",
+        ],
+    );
+}
+
 /// The moment at the shaft would be a polynomial of degree 1 and one of degree 2.
 #[test]
 fn a_signal_and_a_load_of_other_degrees_at_one_input() {
@@ -162,7 +181,7 @@ fn a_signal_and_a_load_of_other_degrees_at_one_input() {
             "\"motor.shaft_moment\" takes this signal and the load of a joint",
             "coupling.degree = 1",
             "coupling.exchanged_degree = 2",
-            "give both the same value",
+            "give both the same whole number",
         ],
     );
 }

@@ -4,7 +4,9 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod brittle;
+mod degrees;
 mod failures;
 mod hard_scenes;
+mod jump;
 mod mistakes;
 mod traces;

@@ -1,7 +1,7 @@
 //! Rejected steps leave no trace.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
+use linchpin_master::cosimulation::{Options, StepDegrees};
 use linchpin_master::scene::Scene;
 use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::{RADAU5, with_settings};
@@ -50,15 +50,49 @@ fn scenes() -> Vec<(&'static str, Scene)> {
             "turning loads",
             with_settings(CRANK, crank, &["scene.t_end=0.3"]),
         ),
+        (
+            "automatic degree",
+            stiff("tolerance=1e-5 degree=automatic macro_step=1e-3", &[]),
+        ),
+        (
+            "automatic degrees of loads and motion",
+            with_settings(
+                CRANK,
+                "method=baumgarte index=1 beta=2H gamma=H^2 degree=automatic exchanged_degree=automatic tolerance=1e-5 macro_step=1e-2",
+                &["scene.t_end=0.3"],
+            ),
+        ),
     ]
 }
 
 fn with_steps(scene: &Scene, of: &Trajectory) -> Trajectory {
-    let options = Options {
-        step_lengths: Some(of.column("step")[1..].to_vec()),
-        ..Options::default()
+    try_run(scene, Place::InProcess, &with_steps_of(of)).unwrap()
+}
+
+/// The accepted steps of a run with the degrees of their polynomials.
+pub(super) fn with_steps_of(run: &Trajectory) -> Options {
+    let has = |name: &str| run.columns.iter().any(|column| column == name);
+    let degrees = |name: &str| -> Vec<Option<usize>> {
+        match has(name) {
+            true => run.column(name)[1..]
+                .iter()
+                .map(|degree| Some(*degree as usize))
+                .collect(),
+            false => vec![None; run.rows.len() - 1],
+        }
     };
-    try_run(scene, Place::InProcess, &options).unwrap()
+    let both = degrees("degree")
+        .into_iter()
+        .zip(degrees("exchanged_degree"));
+    let both = both.map(|(multipliers, exchanged)| StepDegrees {
+        multipliers,
+        exchanged,
+    });
+    Options {
+        step_lengths: Some(run.column("step")[1..].to_vec()),
+        degrees: has("degree").then(|| both.collect()),
+        ..Options::default()
+    }
 }
 
 #[test]

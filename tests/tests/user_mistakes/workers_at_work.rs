@@ -68,6 +68,34 @@ fn a_degree_that_the_worker_cannot_take() {
     outcome.succeeds();
 }
 
+/// The degree that follows the estimates would be 3 nearly everywhere.
+#[test]
+fn an_automatic_degree_stays_below_that_of_the_worker() {
+    let automatic = "method = \"weighted\"\ndegree = \"automatic\" # ";
+    let workshop = workshop(&[
+        ("method = ", "# method = "),
+        ("index = 2", "# index = 2"),
+        ("beta = 2e-3", "# beta = 2e-3"),
+        ("degree = 0", automatic),
+    ]);
+    for highest in [0, 1, 2] {
+        let peer = Peer::scripted(&workshop, |peer| peer.taking_degree(highest));
+        let setting = format!("subsystem.mass2.address={}", peer.address());
+        workshop.run(&run(&["--set", &setting])).succeeds();
+        let rows = rows(&workshop);
+        let degrees = rows.iter().filter_map(|row| row.last());
+        assert_eq!(
+            degrees.fold(0.0, |most: f64, degree| most.max(*degree)),
+            f64::from(highest)
+        );
+        assert!(
+            workshop
+                .read("out/run.json")
+                .contains("\"degree\": \"automatic\"")
+        );
+    }
+}
+
 #[test]
 fn a_number_that_is_none() {
     for value in [f64::NAN, f64::INFINITY] {

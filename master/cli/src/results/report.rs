@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use linchpin_master::results::{Statistics, StepStatistics};
-use linchpin_master::scene::{Method, Scene, StepControl};
+use linchpin_master::results::{DegreeStatistics, Statistics, StepStatistics};
+use linchpin_master::scene::{Degree, Method, Scene, StepControl};
 use serde::Serialize;
 
 use super::Trace;
@@ -40,8 +40,8 @@ struct Json<'a> {
     t_end: f64,
     macro_step: f64,
     step_control: Option<StepControl>,
-    degree: usize,
-    exchanged_degree: usize,
+    degree: Degree,
+    exchanged_degree: Degree,
     method: Method,
     wall_time: f64,
     statistics: &'a Statistics,
@@ -158,6 +158,9 @@ impl RunReport {
         if let Some(steps) = &statistics.steps {
             write_steps(steps, text)?;
         }
+        if let Some(degrees) = &statistics.degrees {
+            write_degrees(degrees, text)?;
+        }
         writeln!(text, "  exchanges    {:>10}", statistics.exchanges)?;
         writeln!(
             text,
@@ -238,6 +241,23 @@ fn write_steps(steps: &StepStatistics, text: &mut String) -> std::fmt::Result {
         }
     }
     writeln!(text)
+}
+
+/// How many macro steps had which degree.
+fn write_degrees(degrees: &DegreeStatistics, text: &mut String) -> std::fmt::Result {
+    let groups = [
+        ("multipliers", degrees.multipliers),
+        ("exchanged variables", degrees.exchanged),
+    ];
+    for (what, steps) in groups {
+        let Some(steps) = steps else { continue };
+        write!(text, "    degree of {what:<20}")?;
+        for (degree, steps) in steps.iter().enumerate() {
+            write!(text, "   {degree}: {steps}")?;
+        }
+        writeln!(text)?;
+    }
+    Ok(())
 }
 
 fn as_json<'a>(

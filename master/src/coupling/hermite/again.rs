@@ -2,6 +2,7 @@
 
 use super::{Hermite, largest_changes};
 use crate::cosimulation::Parts;
+use crate::coupling::carriage::Nodes;
 use crate::coupling::corrector::{Again, Missed};
 use crate::coupling::measure::Change;
 use crate::signal::Curves;
@@ -26,7 +27,7 @@ impl Again for Hermite {
     }
 
     fn has_columns(&self, step: MacroStep) -> bool {
-        self.end.columns.has(step.length, &[])
+        self.end.columns.has(step.length, Nodes::default())
     }
 
     /// The solution for the conditions at the outputs after the advance, with the matrix of the correction.

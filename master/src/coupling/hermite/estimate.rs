@@ -40,7 +40,9 @@ impl Hermite {
             order: shares.order + 2,
         };
         self.position_errors
-            .estimate(parts, step, correction, scales, &mut estimate);
+            .add_errors(parts, step, correction, scales, &mut estimate);
+        self.position_errors
+            .add_openings(parts, correction, scales, &mut estimate);
         for exchanged in &parts.layout.exchanged {
             let allowed = scales.allowed_of_variable(exchanged.subsystem, exchanged.what);
             for variable in exchanged.first..exchanged.first + exchanged.size() {

@@ -32,6 +32,7 @@ mod share;
 mod stack;
 mod variant;
 
+use super::carriage::Nodes;
 use super::columns::{Columns, Look};
 use super::condition::{SingularRow, check_finite};
 use super::corrector::{Again, Corrector};
@@ -256,7 +257,7 @@ impl Corrector for Hermite {
         parts.prepare_prediction(step.start, step.length);
         self.is_first = true;
         self.promise.forget();
-        self.continues = self.end.columns.begin(step.length, &[]);
+        self.continues = self.end.columns.begin(step.length, Nodes::default());
         self.request_look(parts, with_columns);
         // A step that is repeated starts from a point that is linearised about already.
         if self.wants_start && !self.start_is_known {

@@ -1,8 +1,12 @@
 //! The coupling of a resolved scene.
 
-use serde::Serialize;
+use std::fmt;
+
+use serde::{Serialize, Serializer};
 
 use crate::scene::formula::Formula;
+use crate::scene::highest_stable_degree;
+use crate::signal::MAX_DEGREE;
 
 /// How the subsystems are coupled.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,11 +15,11 @@ pub struct Coupling {
     pub method: Method,
     /// Degree k of the Lagrange polynomials of the coupling variables, 0 to 3. Default 1, for the explicit method 0. With
     /// Hermite coupling that of the multipliers on a step, which the variant determines.
-    pub degree: usize,
+    pub degree: Degree,
     /// Degree of the polynomials of exchanged body variables and connected signals, 0 to 3. Default 2, or the degree of the
-    /// multipliers if that is higher; for the explicit method 0. With Hermite coupling only that of connected signals,
-    /// default 3.
-    pub exchanged_degree: usize,
+    /// multipliers if that is higher or automatic; for the explicit method 0. With Hermite coupling only that of connected
+    /// signals, default 3.
+    pub exchanged_degree: Degree,
     /// Who evaluates loads whose direction turns with the bodies. Default automatic.
     pub loads: Loads,
     /// Macro step H in s, greater than 0 and at most the simulated time; the first one if the steps vary.
@@ -45,11 +49,70 @@ pub struct StepControl {
 
 impl Coupling {
     /// Whether a multiplier at `T_{N+1}` is its mean over the step before: the corrector of degree 0 holds it over the
-    /// whole step, so as a value in time it belongs to the middle of the step.
+    /// whole step, so as a value in time it belongs to the middle of the step. Not where the degree may change.
     pub fn multipliers_are_step_means(&self) -> bool {
-        self.method.is_corrected() && self.degree == 0
+        let highest = match self.degree {
+            Degree::Fixed(degree) => degree,
+            Degree::Automatic => highest_stable_degree(self.method, self.macro_step),
+        };
+        self.method.is_corrected() && highest == 0
+    }
+
+    /// Whether a degree follows the estimates.
+    pub fn has_automatic_degree(&self) -> bool {
+        [self.degree, self.exchanged_degree].contains(&Degree::Automatic)
     }
 }
+
+/// Degree of the Lagrange polynomials of coupling variables.
+///
+/// Serialises as the number, or as `"automatic"`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Degree {
+    /// The same on all macro steps.
+    Fixed(usize),
+    /// On every macro step the one from 0 to [`MAX_DEGREE`] that the estimates favour, as far as the method is stable for it.
+    Automatic,
+}
+
+impl Degree {
+    /// The highest degree that a step may have.
+    pub fn highest(self) -> usize {
+        match self {
+            Self::Fixed(degree) => degree,
+            Self::Automatic => MAX_DEGREE,
+        }
+    }
+
+    /// The degree, if it does not change.
+    pub fn fixed(self) -> Option<usize> {
+        match self {
+            Self::Fixed(degree) => Some(degree),
+            Self::Automatic => None,
+        }
+    }
+}
+
+impl Serialize for Degree {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Fixed(degree) => serializer.serialize_u64(*degree as u64),
+            Self::Automatic => serializer.serialize_str(AUTOMATIC_DEGREE),
+        }
+    }
+}
+
+impl fmt::Display for Degree {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Fixed(degree) => degree.fmt(f),
+            Self::Automatic => write!(f, "{AUTOMATIC_DEGREE:?}"),
+        }
+    }
+}
+
+/// A degree that follows the estimates, in a scene.
+pub(in crate::scene) const AUTOMATIC_DEGREE: &str = "automatic";
 
 /// What is demanded of the joints at the macro points, and how the multipliers follow from it.
 ///

@@ -44,6 +44,45 @@ fn a_variant_of_hermite_coupling_has_its_name_and_its_degree() {
 }
 
 #[test]
+fn only_correctors_that_interpolate_have_a_degree_that_follows_the_estimates() {
+    for (method, key, help) in [
+        (
+            "'explicit'\nmu = 1",
+            "degree",
+            "choose 0, or remove the key",
+        ),
+        ("'penalty'\nstiffness = 1", "degree", "from 0 to 3"),
+        ("'jacobi'\nstiffness = 1", "degree", "from 0 to 3"),
+        (
+            "'gauss-seidel'\nstiffness = 1",
+            "exchanged_degree",
+            "from 0 to 3",
+        ),
+        ("'hermite'", "exchanged_degree", "from 0 to 3"),
+    ] {
+        assert_coupling_mistake(
+            &format!("method = {method}\n{key} = 'automatic'"),
+            key,
+            &[
+                "\"automatic\" comes with baumgarte and weighted",
+                "takes a whole number",
+                help,
+            ],
+        );
+    }
+    assert_coupling_mistake(
+        "method = 'hermite'\ndegree = 'automatic'",
+        "degree",
+        &["`hermite` has no `degree`"],
+    );
+    assert_coupling_mistake(
+        "method = 'weighted'\ndegree = 'automatc'",
+        "degree",
+        &["\"automatc\"", "did you mean `automatic`?"],
+    );
+}
+
+#[test]
 fn a_key_of_another_method_is_told_with_its_owner() {
     assert_coupling_mistake(
         "method = 'weighted'\nbeta = 1",

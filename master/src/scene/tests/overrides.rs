@@ -1,6 +1,6 @@
 //! Overrides and cases that are sound.
 
-use super::super::{Index, Method, Override, Scene, parse};
+use super::super::{Degree, Index, Method, Override, Scene, parse};
 use super::{EXAMPLE, ORIGIN, example, line_of, scene};
 use linchpin_proto::v1::value::Kind;
 
@@ -67,7 +67,7 @@ fn further_overrides_keep_the_earlier_ones() {
     let step_by_step = with(&both[..1]).with(&overrides(&both[1..])).unwrap();
     assert_eq!(at_once, step_by_step);
     let later = at_once.with(&overrides(&["coupling.degree=2"])).unwrap();
-    assert_eq!(later.coupling.degree, 2);
+    assert_eq!(later.coupling.degree, Degree::Fixed(2));
 }
 
 #[test]

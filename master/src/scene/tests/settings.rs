@@ -3,8 +3,8 @@
 use linchpin_proto::v1::{self, value::Kind};
 
 use super::super::{
-    Axis, Calls, Increment, Index, JointKind, Method, Order, Reference, RunSettings, Served, Side,
-    Spring, load,
+    Axis, Calls, Degree, Increment, Index, JointKind, Method, Order, Reference, RunSettings,
+    Served, Side, Spring, load,
 };
 use super::{EXAMPLE, coupled, example, scene};
 
@@ -27,7 +27,7 @@ fn the_example_resolves_to_what_it_says() {
     assert_eq!(scene.name, "oscillator");
     assert_eq!((scene.t_start, scene.t_end), (0.0, 1.0));
     assert_eq!(scene.coupling.macro_step, 1e-3);
-    assert_eq!(scene.coupling.degree, 0);
+    assert_eq!(scene.coupling.degree, Degree::Fixed(0));
     assert_eq!(scene.coupling.increment, Increment::Automatic);
     let expected = Method::Baumgarte {
         index: Index::Two,
@@ -180,10 +180,27 @@ fn a_penalty_has_springs_for_lengths_and_for_angles() {
 
 #[test]
 fn the_degree_has_a_default_that_the_method_allows() {
-    let degree = |settings| coupled(settings).unwrap().coupling.degree;
+    let degree = |settings| {
+        let degree = coupled(settings).unwrap().coupling.degree;
+        degree.fixed().unwrap()
+    };
     assert_eq!(degree("method = 'weighted'"), 1);
     assert_eq!(degree("method = 'weighted'\ndegree = 3"), 3);
     assert_eq!(degree("method = 'explicit'\nmu = 0.5"), 0);
+}
+
+#[test]
+fn degrees_that_follow_the_estimates() {
+    let degrees = |settings| {
+        let coupling = coupled(settings).unwrap().coupling;
+        (coupling.degree, coupling.exchanged_degree)
+    };
+    let both = degrees("method = 'weighted'\ndegree = 'automatic'");
+    assert_eq!(both, (Degree::Automatic, Degree::Automatic));
+    let one = degrees("method = 'baumgarte'\ndegree = 'automatic'\nexchanged_degree = 3");
+    assert_eq!(one, (Degree::Automatic, Degree::Fixed(3)));
+    let other = degrees("method = 'baumgarte'\nexchanged_degree = 'automatic'");
+    assert_eq!(other, (Degree::Fixed(1), Degree::Automatic));
 }
 
 #[test]
@@ -304,7 +321,7 @@ y = { key = 'coupling.degree', values = [0, 1, 2] }
     assert!((map.x.values[1] - 0.3).abs() < 1e-15);
     let changed = |axis: &Axis, value| base.with(&axis.overrides(value)).unwrap().coupling;
     assert_eq!(changed(&map.x, map.x.values[1]).macro_step, map.x.values[1]);
-    assert_eq!(changed(&map.y, 2.0).degree, 2);
+    assert_eq!(changed(&map.y, 2.0).degree, Degree::Fixed(2));
 }
 
 #[test]

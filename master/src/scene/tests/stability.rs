@@ -1,6 +1,6 @@
 //! The stability rules against the facts they state and against the macro-step map of a free coordinate.
 
-use super::super::warnings;
+use super::super::{highest_stable_degree, warnings};
 use super::coupled;
 
 const H: f64 = 1e-3;
@@ -181,6 +181,51 @@ fn index_2_and_3_grow_at_every_higher_degree() {
     for degree in 1..=3 {
         assert!(size_after(300, degree, 0.0, 0.0) > 1e100);
         assert!(size_after(300, degree, 20.0, 0.0) > 1e1);
+    }
+}
+
+#[test]
+fn an_automatic_degree_keeps_the_rules() {
+    for (settings, highest) in [
+        ("method = 'weighted'", 3),
+        ("method = 'weighted'\na = 1\nb = 1", 1),
+        ("method = 'weighted'\nindex = 2", 0),
+        ("method = 'weighted'\nindex = 3", 0),
+        ("method = 'baumgarte'", 3),
+        ("method = 'baumgarte'\nindex = 2", 0),
+        ("method = 'baumgarte'\nindex = 3", 0),
+        ("method = 'baumgarte'\nbeta = '5H'\ngamma = '0.9 H^2'", 1),
+        ("method = 'baumgarte'\nbeta = '5H'\ngamma = '0.08 H^2'", 0),
+        (
+            "method = 'baumgarte'\nbeta = '5H'\ngamma = '0.95 H^2'\ntolerance = 1e-6",
+            2,
+        ),
+    ] {
+        let scene = coupled(&format!("{settings}\ndegree = 'automatic'")).unwrap();
+        let found = highest_stable_degree(scene.coupling.method, H);
+        assert_eq!(found, highest, "{settings}");
+        assert!(warnings(&scene).is_empty(), "{settings}");
+        for degree in 0..=3 {
+            let warned = warned_keys(&format!("{settings}\ndegree = {degree}"));
+            assert_eq!(warned.is_empty(), degree <= highest, "{settings}: {degree}");
+        }
+    }
+}
+
+/// gamma = 1e-6 against H^2/12 + beta H/6 and 7/90 H^2 + beta H/3 for beta = 2e-3.
+#[test]
+fn parameters_that_do_not_follow_the_step_allow_lower_degrees_for_longer_ones() {
+    let settings = "method = 'baumgarte'\nbeta = 2e-3\ngamma = 1e-6\ntolerance = 1e-6";
+    let method = coupled(settings).unwrap().coupling.method;
+    for (length, highest) in [
+        (1.29e-3, 3),
+        (1.31e-3, 2),
+        (1.99e-3, 2),
+        (2.01e-3, 1),
+        (3.45e-3, 1),
+        (3.48e-3, 0),
+    ] {
+        assert_eq!(highest_stable_degree(method, length), highest, "{length}");
     }
 }
 

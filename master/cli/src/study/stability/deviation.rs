@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use linchpin_master::RunError;
 use linchpin_master::results::Row;
-use linchpin_master::scene::{self, Coupling, Index, Method, Scene};
+use linchpin_master::scene::{self, Coupling, Degree, Index, Method, Scene};
 
 use super::Simulated;
 use super::cell::MOST_DEVIATION;
@@ -97,8 +97,8 @@ fn reference_run(
     for (method, degree, exchanged_degree) in REFERENCES {
         scene.coupling = Coupling {
             method,
-            degree,
-            exchanged_degree,
+            degree: Degree::Fixed(degree),
+            exchanged_degree: Degree::Fixed(exchanged_degree),
             macro_step: macro_step / REFINEMENT,
             ..scene.coupling
         };
