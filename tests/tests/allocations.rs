@@ -88,6 +88,7 @@ fn a_macro_step_allocates_nothing() {
             "coupling.method=weighted",
             "coupling.index=1",
             "coupling.degree=automatic",
+            "coupling.jacobian=every-step",
         ],
         &["coupling.method=hermite"],
         &["coupling.method=hermite", "coupling.jacobian=every-step"],

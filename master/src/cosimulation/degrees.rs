@@ -18,7 +18,7 @@ pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Load
     let coupling = &scene.coupling;
     // Responses to force and moment turn with the body; those to a multiplier also turn with its partner, so they grow old sooner.
     let turns_with_the_body =
-        coupling.method.keeps_columns() && coupling.jacobian == Jacobian::Reuse;
+        matches!(coupling.method, Method::Hermite { .. }) && coupling.jacobian == Jacobian::Reuse;
     let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
         let capabilities = model.capabilities.unwrap_or_default();
         match coupling.loads {

@@ -17,6 +17,9 @@ const TOO_SLOW: f64 = 0.5;
 /// Noise is what stands so many times above what convergence explains; what stands so many times above noise is none.
 const ABOVE_NOISE: f64 = 2.0;
 
+/// A pass that leaves more than this share of what it has changed was of no use.
+const USELESS: f64 = 0.3;
+
 /// Share that noise keeps from step to step where nothing is heard of it.
 const FADING: f64 = 0.99;
 
@@ -202,10 +205,12 @@ impl Renewal {
         self.rate = Some(rate(missed.by_first, self.first));
     }
 
-    /// A pass leaves a share of what it has changed; what is left beyond that no further pass would take away.
+    /// A pass leaves a share of what it has changed; where it leaves most of it and the columns do not explain that, no further pass
+    /// would take it away.
     fn listen(&mut self, left: f64) {
         let expected = self.rate.unwrap_or_default() * self.last.of_usual;
-        if self.passes.count > 0 && left > ABOVE_NOISE * expected {
+        let is_useless = left > (ABOVE_NOISE * expected).max(USELESS * self.last.of_usual);
+        if self.passes.count > 0 && is_useless {
             self.noise = self.noise.max(left);
         } else {
             self.noise *= FADING;

@@ -8,8 +8,8 @@ use super::layout::Layout;
 ///
 /// The variables are taken in groups of one unit: the forces of a joint, its moments, every exchanged output, every
 /// attitude. The norm is the largest of the Euclidean norms of the groups, each relative to the size of that group's
-/// changes in the last macro steps; so no unit and no scale of a joint counts more than another. Where new columns leave more than
-/// [`MOST_LEFT`] of that, as of forces that are next to nothing, what they leave counts as [`MOST_LEFT`].
+/// changes in the last macro steps; so no unit and no scale of a joint counts more than another. Changes that are
+/// noise, as those of forces that are next to nothing, count as [`MOST_LEFT`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measure {
     groups: Vec<Group>,
@@ -22,15 +22,18 @@ struct Group {
     usual: f64,
     /// The same before the present step.
     past: f64,
-    /// What corrections with new columns leave: the noise of the solvers where it is larger than [`MOST_LEFT`] of a usual change.
-    left_by_new: f64,
+    /// Share of a usual change that is the noise of the solvers, if that is most of it.
+    noise: f64,
 }
 
 /// What columns of an earlier step may leave of a correction. The error that they leave changes from step to step, so it is worse
 /// for the motion than an error of the multipliers of the same size that is smooth.
 pub const MOST_LEFT: f64 = 1e-4;
 
-/// What new columns leave may be so many times as much another time.
+/// Where new columns leave more than this share of a change, the change is noise.
+const NOISE: f64 = 0.03;
+
+/// Noise may be so many times as much another time.
 const SCATTER: f64 = 3.0;
 
 /// Size of a change of the coupling variables, the largest over the groups.
@@ -46,6 +49,9 @@ pub struct Change {
 
 /// Share of its weight that a change keeps from one macro step to the next.
 const MEMORY: f64 = 0.9;
+
+/// Share that noise keeps from step to step.
+const FADING: f64 = 0.99;
 
 /// Changes below this share of the variables themselves are rounding.
 const ROUNDING: f64 = 1e-12;
@@ -69,7 +75,7 @@ impl Measure {
             variables: *start..end,
             usual: 0.0,
             past: 0.0,
-            left_by_new: 0.0,
+            noise: 0.0,
         };
         Self {
             groups: starts.iter().zip(ends).map(group).collect(),
@@ -87,8 +93,10 @@ impl Measure {
     /// Takes note of what a correction with new columns has left.
     pub fn note_left(&mut self, left: &[f64]) {
         for group in &mut self.groups {
-            let size = SCATTER * norm(&left[group.variables.clone()]);
-            group.left_by_new = size.max(MEMORY * group.left_by_new);
+            let share = norm(&left[group.variables.clone()]) / group.usual;
+            if share > NOISE {
+                group.noise = SCATTER * share;
+            }
         }
     }
 
@@ -96,6 +104,7 @@ impl Measure {
     pub fn move_on(&mut self) {
         for group in &mut self.groups {
             group.past = group.usual;
+            group.noise *= FADING;
         }
     }
 
@@ -107,7 +116,7 @@ impl Measure {
             if size <= ROUNDING * value {
                 continue;
             }
-            let usual = group.usual.max(group.left_by_new / MOST_LEFT);
+            let usual = group.usual * (group.noise / MOST_LEFT).max(1.0);
             largest.of_usual = largest.of_usual.max(size / usual.max(ROUNDING * value));
             let of_size = size / value.max(group.usual);
             if of_size > largest.of_size {
