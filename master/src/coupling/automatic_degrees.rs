@@ -24,6 +24,8 @@ pub struct Group {
     /// The highest degree that all workers take.
     highest: usize,
     choice: DegreeChoice,
+    /// What follows if the step is taken.
+    next: DegreeChoice,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,6 +61,10 @@ impl Group {
         history.smooth_points(self.variables.start)
     }
 
+    fn begin(&mut self, choice: DegreeChoice) {
+        (self.choice, self.next) = (choice, choice);
+    }
+
     fn highest(&self, method: Method, length: f64) -> usize {
         match self.kind {
             Kind::Multipliers => self.highest.min(highest_stable_degree(method, length)),
@@ -91,8 +97,10 @@ impl AutomaticDegrees {
                 highest: highest.filter(|_| !variables.is_empty())?,
                 variables,
                 choice: DegreeChoice::new(0),
+                next: DegreeChoice::new(0),
             };
-            group.choice = DegreeChoice::new(group.highest(method, first_step));
+            let highest = group.highest(method, first_step);
+            group.begin(DegreeChoice::new(highest));
             Some(group)
         };
         let groups: Vec<Group> = [
@@ -135,10 +143,10 @@ impl AutomaticDegrees {
         for group in &mut self.groups {
             let prospects = prospects(group);
             let highest = group.highest(self.method, longest);
-            let before = group.degree();
-            group.choice.follow(&prospects, highest, purpose);
-            let next = group.degree();
-            if next != before && next < prospects.smooth_points {
+            group.next = group.choice;
+            group.next.follow(&prospects, highest, purpose);
+            let next = group.next.degree();
+            if next != group.degree() && next < prospects.smooth_points {
                 changed[group.kind as usize] = Some(next);
             }
         }
@@ -151,12 +159,24 @@ impl AutomaticDegrees {
             .groups
             .iter_mut()
             .filter(|group| group.are_multipliers());
-        multipliers.for_each(|group| group.choice.restart());
+        multipliers.for_each(|group| group.begin(DegreeChoice::after_jump()));
         self.apply(history);
     }
 
+    /// The step is repeated with the degrees that were chosen for it.
+    pub fn repeat(&mut self, history: &mut History) {
+        self.take_next();
+        self.apply(history);
+    }
+
+    fn take_next(&mut self) {
+        for group in &mut self.groups {
+            group.choice = group.next;
+        }
+    }
+
     /// Gives the polynomials their degrees.
-    pub fn apply(&self, history: &mut History) {
+    fn apply(&self, history: &mut History) {
         for group in &self.groups {
             history.set_degree(group.variables.clone(), group.degree());
         }
@@ -165,6 +185,7 @@ impl AutomaticDegrees {
     /// The step is taken; the next one gets the degrees that were chosen.
     pub fn move_on(&mut self, history: &mut History) {
         self.steps_done += 1;
+        self.take_next();
         self.take_given();
         self.apply(history);
     }
@@ -176,7 +197,7 @@ impl AutomaticDegrees {
         };
         for group in &mut self.groups {
             if let Some(degree) = group.of_step(degrees) {
-                group.choice = DegreeChoice::new(degree);
+                group.begin(DegreeChoice::new(degree));
             }
         }
     }

@@ -87,9 +87,11 @@ impl DegreeChoice {
     }
 
     /// The variables have jumped: begins anew with constant polynomials.
-    pub fn restart(&mut self) {
-        *self = Self::new(0);
-        self.is_rising = true;
+    pub fn after_jump() -> Self {
+        Self {
+            is_rising: true,
+            ..Self::new(0)
+        }
     }
 
     /// The present degree.
@@ -207,8 +209,7 @@ mod tests {
 
     #[test]
     fn after_a_jump_the_degree_grows_with_the_points() {
-        let mut choice = DegreeChoice::new(3);
-        choice.restart();
+        let mut choice = DegreeChoice::after_jump();
         let mut degrees = vec![choice.degree()];
         for points in 0..6 {
             let degree = choice.degree();
@@ -219,8 +220,7 @@ mod tests {
             degrees.push(choice.degree());
         }
         assert_eq!(degrees, [0, 0, 1, 2, 3, 3, 3]);
-        let mut stays = DegreeChoice::new(3);
-        stays.restart();
+        let mut stays = DegreeChoice::after_jump();
         for points in 0..6 {
             let degree = stays.degree();
             let errors = [0.9, 0.5, 0.4].map(|error| if degree < 1 { error } else { 1.0 - error });

@@ -140,7 +140,7 @@ impl SemiImplicit {
         let prospects = |group: &Group| self.prospects(solved, group);
         let changed = automatic.choose(prospects, step.length, purpose);
         if purpose == Purpose::Repetition {
-            automatic.apply(&mut self.history);
+            automatic.repeat(&mut self.history);
         }
         self.automatic = Some(automatic);
         match changed {
