@@ -190,6 +190,7 @@ impl Renewal {
         }
         if let Some(again) = method.again() {
             let missed = again.learn(parts, self.are_fresh);
+            self.listen(&missed);
             if !self.are_fresh {
                 self.take(missed);
             }
@@ -198,7 +199,6 @@ impl Renewal {
     }
 
     fn take(&mut self, missed: Missed) {
-        self.listen(missed.by_last);
         if self.passes.count == 0 {
             self.left_by_first = Some(rate(missed.by_last, self.first));
         }
@@ -207,7 +207,8 @@ impl Renewal {
 
     /// A pass leaves a share of what it has changed; where it leaves most of it and the columns do not explain that, no further pass
     /// would take it away.
-    fn listen(&mut self, left: f64) {
+    fn listen(&mut self, missed: &Missed) {
+        let left = missed.by_last;
         let expected = self.rate.unwrap_or_default() * self.last.of_usual;
         let is_useless = left > (ABOVE_NOISE * expected).max(USELESS * self.last.of_usual);
         if self.passes.count > 0 && is_useless {
