@@ -37,7 +37,9 @@ pub struct Cost {
 
 impl Running {
     pub fn start(links: usize, place: Place, settings: &[&str]) -> Self {
-        let scene = with_settings(&scene_text(links), "", settings);
+        // Columns in every step: the same work in every block.
+        let settings = [&["coupling.jacobian=every-step"], settings].concat();
+        let scene = with_settings(&scene_text(links), "", &settings);
         let connector = Connector::new(place);
         let mut connect = |scene: &_, subsystem: &_| connector.connect(scene, subsystem);
         let simulation = CoSimulation::start(&scene, &mut connect, &Options::default()).unwrap();

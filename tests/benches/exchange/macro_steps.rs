@@ -36,6 +36,8 @@ impl Messages {
 }
 
 fn scene(overrides: &[&str]) -> Scene {
+    // Columns in every step: the same work in every block.
+    let overrides = [&["coupling.jacobian=every-step"], overrides].concat();
     let overrides: Vec<_> = overrides.iter().map(|text| text.parse().unwrap()).collect();
     parse(SCENE, "oscillator.toml", &overrides).unwrap()
 }

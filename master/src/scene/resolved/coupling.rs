@@ -28,7 +28,7 @@ pub struct Coupling {
     pub step_control: Option<StepControl>,
     /// Increments of the finite differences. Default automatic.
     pub increment: Increment,
-    /// How long columns of the coupling Jacobian are used. Default every-step, with Hermite coupling reuse.
+    /// How long columns of the coupling Jacobian are used. Default reuse.
     pub jacobian: Jacobian,
     /// Corrections until they change nothing of note; absent: one, as in S1.
     pub iterations: Option<Iterations>,
