@@ -18,7 +18,7 @@ const TOO_SLOW: f64 = 0.5;
 const ABOVE_NOISE: f64 = 2.0;
 
 /// A pass that leaves more than this share of what it has changed was of no use.
-const USELESS: f64 = 0.3;
+const USELESS: f64 = 0.7;
 
 /// Share that noise keeps from step to step where nothing is heard of it.
 const FADING: f64 = 0.99;
@@ -190,32 +190,40 @@ impl Renewal {
         }
         if let Some(again) = method.again() {
             let missed = again.learn(parts, self.are_fresh);
-            self.listen(&missed);
+            let is_noise = self.listen(missed);
             if !self.are_fresh {
-                self.take(missed);
+                self.take(missed, is_noise);
             }
         }
         self.passes
     }
 
-    fn take(&mut self, missed: Missed) {
+    fn take(&mut self, missed: Missed, is_noise: bool) {
+        let of_first = rate(missed.by_first, self.first);
+        let of_last = rate(missed.by_last, self.last.of_usual);
         if self.passes.count == 0 {
-            self.left_by_first = Some(rate(missed.by_last, self.first));
+            self.left_by_first = Some(of_last);
         }
-        self.rate = Some(rate(missed.by_first, self.first));
+        let tells_rate = self.passes.count > 0 && !is_noise;
+        self.rate = Some(if tells_rate {
+            of_first.max(of_last)
+        } else {
+            of_first
+        });
     }
 
     /// A pass leaves a share of what it has changed; where it leaves most of it and the columns do not explain that, no further pass
-    /// would take it away.
-    fn listen(&mut self, missed: &Missed) {
+    /// would take it away. Gives whether that is so.
+    fn listen(&mut self, missed: Missed) -> bool {
         let left = missed.by_last;
         let expected = self.rate.unwrap_or_default() * self.last.of_usual;
         let is_useless = left > (ABOVE_NOISE * expected).max(USELESS * self.last.of_usual);
-        if self.passes.count > 0 && is_useless {
-            self.noise = self.noise.max(left);
-        } else {
-            self.noise *= FADING;
-        }
+        let is_noise = self.passes.count > 0 && is_useless;
+        self.noise = match is_noise {
+            true => self.noise.max(left),
+            false => FADING * self.noise,
+        };
+        is_noise
     }
 }
 
