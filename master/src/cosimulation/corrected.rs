@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use super::obstacle::Obstacle;
-use super::renewal::{Renewal, last_change};
+use super::renewal::Renewal;
 use super::step_size::StepSize;
 use super::{Outcome, Parts, exchange, recovery};
 use crate::coupling::corrector::Corrector;
@@ -113,11 +113,10 @@ fn attempt(
     }
     renewal.begin(method);
     while let Some(with_columns) = renewal.next_pass() {
-        let Some(again) = method.again() else { break };
-        again.request_pass(parts, step, with_columns);
+        method.request_pass(parts, step, with_columns);
         look(parts, step, varies)?;
         outcome.solving += correct(method, parts, step)?;
-        renewal.note_pass(last_change(method), with_columns);
+        renewal.note_pass(method.last_change(), with_columns);
     }
     renewal.check(parts, step)?;
     Ok(estimates)

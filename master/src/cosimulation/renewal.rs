@@ -82,9 +82,8 @@ impl Renewal {
     }
 
     /// Whether the look-ahead over the `following` step has to bring new columns.
-    pub fn wants_columns(&mut self, method: &mut dyn Corrector, following: MacroStep) -> bool {
-        let again = method.again();
-        let has_columns = again.is_some_and(|again| again.has_columns(following));
+    pub fn wants_columns(&mut self, method: &dyn Corrector, following: MacroStep) -> bool {
+        let has_columns = method.has_columns(following);
         let is_slow = self.rate.is_some_and(|rate| rate > SLOW);
         let wanted = self.rule == Jacobian::EveryStep || is_slow || !has_columns;
         self.come_next = wanted;
@@ -93,8 +92,8 @@ impl Renewal {
 
     /// After the first correction of a step whose error is small enough.
     pub fn begin(&mut self, method: &mut dyn Corrector) {
-        let continues = method.again().is_some_and(|again| again.accept());
-        let change = last_change(method);
+        let continues = method.accept();
+        let change = method.last_change();
         self.are_fresh = self.come_next;
         self.last = change;
         self.passes = Passes {
@@ -188,12 +187,10 @@ impl Renewal {
         if self.rule == Jacobian::EveryStep {
             return self.passes;
         }
-        if let Some(again) = method.again() {
-            let missed = again.learn(parts, self.are_fresh);
-            let is_noise = self.listen(missed);
-            if !self.are_fresh {
-                self.take(missed, is_noise);
-            }
+        let missed = method.learn(parts, self.are_fresh);
+        let is_noise = self.listen(missed);
+        if !self.are_fresh {
+            self.take(missed, is_noise);
         }
         self.passes
     }
@@ -225,12 +222,6 @@ impl Renewal {
         };
         is_noise
     }
-}
-
-/// Size of the last correction.
-pub(super) fn last_change(method: &mut dyn Corrector) -> Change {
-    let again = method.again();
-    again.map_or_else(Change::default, |again| again.last_change())
 }
 
 fn rate(size: f64, before: f64) -> f64 {

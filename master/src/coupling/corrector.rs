@@ -12,7 +12,7 @@ use crate::time::MacroStep;
 /// A method that predicts the coupling variables over a macro step and corrects them from what the workers answer.
 ///
 /// It stands at the present macro point `T_N`, from where it predicts; [`Corrector::move_on`] takes it to `T_{N+1}`.
-pub(crate) trait Corrector: Send {
+pub(crate) trait Corrector: Again + Send {
     /// Multipliers at the present macro point.
     fn multipliers(&self) -> &[f64];
 
@@ -64,14 +64,9 @@ pub(crate) trait Corrector: Send {
 
     /// How well the outputs after the advance meet what their linearisation promised.
     fn judge(&mut self, parts: &Parts) -> Verdict;
-
-    /// The method as one that can correct a step again; `None` if it cannot: it then gets new columns in every step.
-    fn again(&mut self) -> Option<&mut dyn Again> {
-        None
-    }
 }
 
-/// A method that can correct a macro step more than once.
+/// How a method corrects a macro step more than once, and keeps columns.
 pub(crate) trait Again {
     /// Fills in another look-ahead over `step` from the same macro point, with the corrected inputs in place of the predicted
     /// ones, and perturbed ones if `with_columns`: [`Corrector::correct`] then corrects them further.

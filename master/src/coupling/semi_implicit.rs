@@ -247,10 +247,6 @@ impl Corrector for SemiImplicit {
     fn judge(&mut self, parts: &Parts) -> Verdict {
         self.promise.judge(&self.system, parts, &self.solution)
     }
-
-    fn again(&mut self) -> Option<&mut dyn Again> {
-        Some(self)
-    }
 }
 
 impl Again for SemiImplicit {

@@ -35,7 +35,7 @@ mod variant;
 use super::carriage::Nodes;
 use super::columns::{Columns, Look};
 use super::condition::{SingularRow, check_finite};
-use super::corrector::{Again, Corrector};
+use super::corrector::Corrector;
 use super::error_estimate::{ErrorScales, Estimate};
 use super::layout::Over;
 use super::measure::Measure;
@@ -329,10 +329,6 @@ impl Corrector for Hermite {
             self.refine_multipliers();
         }
         self.promise.judge(&self.end.system, parts, &self.solution)
-    }
-
-    fn again(&mut self) -> Option<&mut dyn Again> {
-        Some(self)
     }
 }
 
