@@ -16,4 +16,5 @@ pub mod random_pairs;
 pub mod runs;
 pub mod scenes;
 pub mod spring_pair;
+pub mod traces;
 pub mod tuning;

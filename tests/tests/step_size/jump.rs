@@ -2,9 +2,9 @@
 
 use linchpin::connect::Place;
 use linchpin_tests::runs::try_run;
+use linchpin_tests::traces::with_steps_of;
 
 use super::hard_scenes::{LOAD_STEP, LOADED_FROM};
-use super::traces::with_steps_of;
 
 /// The tolerance is met, at less cost than with any fixed degree; the run with its lengths and degrees has equal bits.
 #[test]

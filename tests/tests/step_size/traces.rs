@@ -1,10 +1,10 @@
 //! Rejected steps leave no trace.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::{Options, StepDegrees};
 use linchpin_master::scene::Scene;
-use linchpin_tests::runs::{Trajectory, run, try_run};
+use linchpin_tests::runs::run;
 use linchpin_tests::scenes::{RADAU5, with_settings};
+use linchpin_tests::traces::{assert_equal_bits_everywhere, assert_no_trace};
 
 const STIFF: &str = include_str!("../../../scenes/hard/stiff-spring.toml");
 const HEAVY: &str = include_str!("../../../scenes/hard/heavy-end.toml");
@@ -65,57 +65,17 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-fn with_steps(scene: &Scene, of: &Trajectory) -> Trajectory {
-    try_run(scene, Place::InProcess, &with_steps_of(of)).unwrap()
-}
-
-/// The accepted steps of a run with the degrees of their polynomials.
-pub(super) fn with_steps_of(run: &Trajectory) -> Options {
-    let has = |name: &str| run.columns.iter().any(|column| column == name);
-    let degrees = |name: &str| -> Vec<Option<usize>> {
-        match has(name) {
-            true => run.column(name)[1..]
-                .iter()
-                .map(|degree| Some(*degree as usize))
-                .collect(),
-            false => vec![None; run.rows.len() - 1],
-        }
-    };
-    let both = degrees("degree")
-        .into_iter()
-        .zip(degrees("exchanged_degree"));
-    let both = both.map(|(multipliers, exchanged)| StepDegrees {
-        multipliers,
-        exchanged,
-    });
-    Options {
-        step_lengths: Some(run.column("step")[1..].to_vec()),
-        degrees: has("degree").then(|| both.collect()),
-        ..Options::default()
-    }
-}
-
 #[test]
 fn a_run_with_the_accepted_steps_from_the_beginning_has_equal_bits() {
     for (name, scene) in scenes() {
-        let found = run(&scene, Place::InProcess);
-        assert!(found.rejected > 0, "{name} rejects no step");
-        let expected = with_steps(&scene, &found);
-        assert!(found.bits() == expected.bits(), "{name}");
-        assert!(found.integrations > expected.integrations, "{name}");
+        assert_no_trace(name, &scene);
     }
 }
 
 #[test]
 fn threads_and_single_calls_change_no_bit() {
     for (name, scene) in scenes() {
-        let expected = run(&scene, Place::InProcess).bits();
-        assert!(run(&scene, Place::Threads).bits() == expected, "{name}");
-        let mut unary = scene.clone();
-        for subsystem in &mut unary.subsystems {
-            subsystem.calls = linchpin_master::scene::Calls::Unary;
-        }
-        assert!(run(&unary, Place::InProcess).bits() == expected, "{name}");
+        assert_equal_bits_everywhere(name, &scene);
     }
 }
 

@@ -1,10 +1,10 @@
 //! Steps that were taken back leave no trace.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
-use linchpin_master::scene::{Calls, Scene};
-use linchpin_tests::runs::{Trajectory, run, try_run};
+use linchpin_master::scene::Scene;
+use linchpin_tests::runs::run;
 use linchpin_tests::scenes::{RADAU5, oscillator_with, with_settings};
+use linchpin_tests::traces::{assert_equal_bits_everywhere, assert_no_trace};
 
 const CRANK: &str = include_str!("../../../scenes/slider-crank.toml");
 const UNIVERSAL: &str = include_str!("../../../scenes/spatial/universal-pendulum.toml");
@@ -69,37 +69,17 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     scenes
 }
 
-fn with_steps(scene: &Scene, of: &Trajectory) -> Trajectory {
-    let options = Options {
-        step_lengths: Some(of.column("step")[1..].to_vec()),
-        ..Options::default()
-    };
-    try_run(scene, Place::InProcess, &options).unwrap()
-}
-
 #[test]
 fn a_run_with_the_accepted_steps_from_the_beginning_has_equal_bits() {
     for (name, scene) in scenes() {
-        let found = run(&scene, Place::InProcess);
-        assert!(found.rejected > 0, "{name} rejects no step");
-        let expected = with_steps(&scene, &found);
-        assert!(found.bits() == expected.bits(), "{name}");
-        assert!(found.integrations > expected.integrations, "{name}");
+        assert_no_trace(name, &scene);
     }
 }
 
 #[test]
 fn threads_and_single_calls_change_no_bit() {
     for (name, scene) in scenes() {
-        let expected = run(&scene, Place::InProcess).bits();
-        assert!(run(&scene, Place::Threads).bits() == expected, "{name}");
-        for calls in [Calls::Unary, Calls::Automatic] {
-            let mut scene = scene.clone();
-            for subsystem in &mut scene.subsystems {
-                subsystem.calls = calls;
-            }
-            assert!(run(&scene, Place::InProcess).bits() == expected, "{name}");
-        }
+        assert_equal_bits_everywhere(name, &scene);
     }
 }
 
