@@ -34,13 +34,14 @@ pub(super) fn macro_step(
         }
     }
     let step = outcome.step;
+    renewal.take(step);
     parts.prepare_advance(step);
     method.request_advance(parts, step);
     method.move_on(step);
     let following = plan.following(wish);
     match following {
         Some(following) => {
-            let with_columns = renewal.wants_columns(method, following);
+            let with_columns = renewal.wants_columns(method, parts, following);
             method.request_prediction(parts, following, with_columns)?;
         }
         None => parts.forgo_prediction(),
@@ -79,7 +80,7 @@ fn repeat_until_accepted(
                 }
                 outcome.step = plan.shorten(repetition.length);
                 *renewal = before;
-                let with_columns = renewal.wants_columns(method, outcome.step);
+                let with_columns = renewal.wants_columns(method, parts, outcome.step);
                 let ahead = (outcome.step, with_columns);
                 look_ahead(method, parts, ahead, Some(step_size))?;
             }

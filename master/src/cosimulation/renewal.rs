@@ -5,7 +5,7 @@ use super::obstacle::{Kind, Obstacle};
 use crate::coupling::corrector::{Corrector, Missed};
 use crate::coupling::measure::{Change, MOST_LEFT};
 use crate::error::RunError;
-use crate::scene::{Iterations, Jacobian, Otherwise};
+use crate::scene::{Coupling, Iterations, Jacobian, Otherwise};
 use crate::time::MacroStep;
 
 /// Rate of convergence above which new columns come with the next look-ahead.
@@ -26,6 +26,12 @@ const FADING: f64 = 0.99;
 /// Most passes that columns of an earlier step get.
 const MOST_PASSES: u32 = 8;
 
+/// After so many macro steps of one length that needed passes with columns of other lengths it gets its own.
+const MOST_BORROWED: u32 = 3;
+
+/// What columns of an earlier step may leave of a correction where steps vary: the error of such a step is a tenth of a correction and more.
+const MOST_LEFT_OF_VARIABLE_STEPS: f64 = 1e-2;
+
 /// Watches how well corrections converge with the columns at hand.
 ///
 /// With columns of an earlier step a correction misses its aim by a share, the *rate*. A pass looks ahead over the same step with the
@@ -35,6 +41,10 @@ const MOST_PASSES: u32 = 8;
 pub(crate) struct Renewal {
     rule: Jacobian,
     iterations: Option<Iterations>,
+    /// What may be left of a correction.
+    most_left: f64,
+    /// Rate of columns of which no step has shown it: where steps vary they are trusted for one step.
+    unknown_rate: Option<f64>,
     /// Share that a correction misses with the columns at hand; `None` until a step has shown it.
     rate: Option<f64>,
     /// Share that the first correction of a step has left, which takes into account what it was foreseen to miss.
@@ -43,6 +53,14 @@ pub(crate) struct Renewal {
     are_fresh: bool,
     /// Whether the last look-ahead, over the following step, was asked for columns.
     come_next: bool,
+    /// Share of the columns for it that may be wrong because they were measured over other lengths; `None` if it brings new ones.
+    off_by_length: Option<f64>,
+    /// Whether corrections converged too slowly when the last step was taken.
+    is_slow: bool,
+    /// Length of that step in s.
+    length: f64,
+    /// Macro steps of this length in a row that needed passes with columns of other lengths.
+    borrowed: u32,
     /// Size of the first correction of the step.
     first: f64,
     last: Change,
@@ -66,14 +84,24 @@ pub struct Passes {
 
 impl Renewal {
     /// Under the rules of the scene.
-    pub fn new(rule: Jacobian, iterations: Option<Iterations>) -> Self {
+    pub fn new(coupling: &Coupling) -> Self {
+        let (most_left, unknown_rate) = match coupling.step_control {
+            Some(_) => (MOST_LEFT_OF_VARIABLE_STEPS, Some(0.0)),
+            None => (MOST_LEFT, None),
+        };
         Self {
-            rule,
-            iterations,
+            rule: coupling.jacobian,
+            iterations: coupling.iterations,
+            most_left,
+            unknown_rate,
             rate: None,
             left_by_first: None,
             are_fresh: true,
             come_next: true,
+            off_by_length: None,
+            is_slow: false,
+            length: 0.0,
+            borrowed: 0,
             noise: 0.0,
             first: 0.0,
             last: Change::default(),
@@ -82,12 +110,35 @@ impl Renewal {
     }
 
     /// Whether the look-ahead over the `following` step has to bring new columns.
-    pub fn wants_columns(&mut self, method: &dyn Corrector, following: MacroStep) -> bool {
-        let has_columns = method.has_columns(following);
-        let is_slow = self.rate.is_some_and(|rate| rate > SLOW);
-        let wanted = self.rule == Jacobian::EveryStep || is_slow || !has_columns;
-        self.come_next = wanted;
-        wanted
+    pub fn wants_columns(
+        &mut self,
+        method: &mut dyn Corrector,
+        parts: &Parts,
+        following: MacroStep,
+    ) -> bool {
+        let wanted = self.rule == Jacobian::EveryStep || self.is_slow;
+        let found = (!wanted).then(|| method.prepare_columns(parts, following));
+        // A length that stays is worth columns of its own.
+        let is_own = self.borrowed >= MOST_BORROWED && self.length == following.length;
+        self.off_by_length = found.flatten().filter(|off| *off == 0.0 || !is_own);
+        self.come_next = self.off_by_length.is_none();
+        self.come_next
+    }
+
+    /// The step is taken after all its corrections: what they tell decides about the columns of the next one, however often that is tried.
+    pub fn take(&mut self, step: MacroStep) {
+        self.is_slow = self.rate.is_some_and(|rate| rate > SLOW);
+        let is_borrowed = self.off_by_length.is_some_and(|off| off > 0.0);
+        let before = if step.length == self.length {
+            self.borrowed
+        } else {
+            0
+        };
+        self.borrowed = match is_borrowed && self.passes.count > 0 {
+            true => before + 1,
+            false => 0,
+        };
+        self.length = step.length;
     }
 
     /// After the first correction of a step whose error is small enough.
@@ -101,7 +152,9 @@ impl Renewal {
             ..Passes::default()
         };
         if !continues {
-            (self.rate, self.left_by_first) = (None, None);
+            let off = self.off_by_length.filter(|_| !self.are_fresh);
+            self.rate = self.rate.filter(|_| off.is_some());
+            self.left_by_first = self.rate.or(self.unknown_rate).zip(off).map(larger);
         }
         self.first = change.of_usual;
     }
@@ -116,8 +169,18 @@ impl Renewal {
             }
             None => self.leaves_too_much() && self.passes.count < MOST_PASSES,
         };
-        let is_too_slow = self.rate.is_some_and(|rate| rate > TOO_SLOW);
-        is_wanted.then_some(is_too_slow)
+        let needs_columns = self.rate.is_some_and(|rate| rate > TOO_SLOW) || self.is_out_of_reach();
+        is_wanted.then_some(needs_columns)
+    }
+
+    /// Whether the passes that are left do not converge with columns of earlier steps.
+    fn is_out_of_reach(&self) -> bool {
+        let rate = self.rate.or(self.off_by_length);
+        let (Some(iterations), Some(rate)) = (self.iterations, rate) else {
+            return false;
+        };
+        let left = rate.powi((iterations.most - self.passes.count.min(iterations.most)) as i32);
+        !self.are_fresh && left * self.last.of_size > iterations.tolerance
     }
 
     fn leaves_too_much(&self) -> bool {
@@ -125,10 +188,10 @@ impl Renewal {
             return false;
         }
         let left = match self.passes.count {
-            0 => self.left_by_first,
+            0 => self.left_by_first.or(self.unknown_rate),
             _ => self.rate,
         };
-        let most = MOST_LEFT.max(ABOVE_NOISE * self.noise);
+        let most = self.most_left.max(ABOVE_NOISE * self.noise);
         left.is_none_or(|share| share * self.last.of_usual > most)
     }
 
@@ -190,12 +253,12 @@ impl Renewal {
         let missed = method.learn(parts, self.are_fresh);
         let is_noise = self.listen(missed);
         if !self.are_fresh {
-            self.take(missed, is_noise);
+            self.note_missed(missed, is_noise);
         }
         self.passes
     }
 
-    fn take(&mut self, missed: Missed, is_noise: bool) {
+    fn note_missed(&mut self, missed: Missed, is_noise: bool) {
         let of_first = rate(missed.by_first, self.first);
         let of_last = rate(missed.by_last, self.last.of_usual);
         if self.passes.count == 0 {
@@ -222,6 +285,10 @@ impl Renewal {
         };
         is_noise
     }
+}
+
+fn larger((one, other): (f64, f64)) -> f64 {
+    one.max(other)
 }
 
 fn rate(size: f64, before: f64) -> f64 {

@@ -19,6 +19,7 @@ use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
 use crate::coupling::automatic_degrees::{AutomaticDegrees, StepDegrees};
+use crate::coupling::columns::Basis;
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
@@ -29,7 +30,7 @@ use crate::coupling::semi_implicit::SemiImplicit;
 use crate::coupling::springs::Springs;
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
-use crate::scene::{self, Degree, Jacobian, Method, Order, Scene, Spring};
+use crate::scene::{self, Coupling, Degree, Jacobian, Method, Order, Scene, Spring};
 use crate::signal::{History, Variables};
 use crate::time::{MacroStep, TimePlan};
 
@@ -132,7 +133,7 @@ impl CoSimulation {
         Ok(Self {
             parts,
             scheme,
-            renewal: Renewal::new(scene.coupling.jacobian, scene.coupling.iterations),
+            renewal: Renewal::new(&scene.coupling),
             plan,
             step_size,
             ceiling: Ceiling::new(),
@@ -386,8 +387,18 @@ fn begin(
     let first = first_step(plan).length;
     let given = options.degrees.clone();
     let automatic = AutomaticDegrees::new(coupling.method, &parts.layout, highest, first, given);
-    let method = SemiImplicit::new(condition, coupling.increment, history, automatic, parts);
+    let columns = (coupling.increment, basis_of(coupling));
+    let method = SemiImplicit::new(condition, columns, history, automatic, parts);
     begin_corrected(Box::new(method), parts, plan, step_size)
+}
+
+/// Where steps or degrees vary, the past nodes of the polynomials do; columns that stay in use must serve with any of them.
+fn basis_of(coupling: &Coupling) -> Basis {
+    let varies = coupling.step_control.is_some() || coupling.has_automatic_degree();
+    match coupling.jacobian {
+        Jacobian::Reuse if varies => Basis::Powers,
+        Jacobian::Reuse | Jacobian::EveryStep => Basis::Shapes,
+    }
 }
 
 /// Lets a predictor/corrector method look ahead over the first macro step.

@@ -33,7 +33,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Macro steps are the first one times powers of two with these parts of a whole exponent: columns of a length that comes back serve
 /// again.
-const LENGTHS_PER_OCTAVE: f64 = 8.0;
+const LENGTHS_PER_OCTAVE: f64 = 16.0;
 
 /// Smallest scaled error that the controller remembers.
 const LEAST_ERROR: f64 = 1e-4;

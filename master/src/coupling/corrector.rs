@@ -79,8 +79,9 @@ pub(crate) trait Again {
     /// Size of the last correction.
     fn last_change(&self) -> Change;
 
-    /// Whether there are columns for a look-ahead over `step`: for its length and the shape of its polynomials.
-    fn has_columns(&self, step: MacroStep) -> bool;
+    /// Looks for columns of earlier steps for a look-ahead over `step`. Gives the share of them that may be wrong because they were measured
+    /// over other lengths; `None` if there are none.
+    fn prepare_columns(&mut self, parts: &Parts, step: MacroStep) -> Option<f64>;
 
     /// Learns from the outputs after the advance what the first correction of the step has missed, so that the next first
     /// correction takes it into account; of a step `with_new_columns`, what even they leave. Comes after [`Corrector::move_on`].

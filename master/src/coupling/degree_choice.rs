@@ -6,6 +6,10 @@ pub const MOST_GROWTH: f64 = 2.0;
 /// Another degree has to allow steps that are longer by this factor.
 const GAIN: f64 = 1.2;
 
+/// Degree that is left for a lower one only at a jump. Multipliers of constant polynomials are means over the steps; polynomials of higher degree through
+/// them look rough, so that the errors of degree 0 would never let it go.
+const LOWEST: usize = 1;
+
 /// What a degree is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Purpose {
@@ -123,7 +127,8 @@ impl DegreeChoice {
         let is_better = |other: Option<Prospect>, gain| {
             other.is_some_and(|other| other.is_better(present, gain, purpose))
         };
-        let is_lower_better = is_better(prospects.lower, 1.0);
+        let lower = prospects.lower.filter(|_| degree > LOWEST);
+        let is_lower_better = is_better(lower, 1.0);
         if purpose == Purpose::Repetition {
             return degree - usize::from(is_lower_better);
         }
@@ -132,7 +137,7 @@ impl DegreeChoice {
         }
         let higher = prospects.higher.filter(|_| degree < highest);
         let count = |steps: usize, other| if is_better(other, GAIN) { steps + 1 } else { 0 };
-        self.lower = count(self.lower, prospects.lower);
+        self.lower = count(self.lower, lower);
         self.higher = count(self.higher, higher);
         match (self.lower > degree, self.higher > degree) {
             (true, true) if self.higher > self.lower => degree + 1,

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::columns::{Columns, Look};
+use super::columns::{Basis, Columns, Look};
 use super::condition::{Condition, check_finite};
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
 use super::layout::Over;
@@ -44,7 +44,8 @@ impl Explicit {
     pub fn new(mu: Formula, increment: Increment, history: History, parts: &Parts) -> Self {
         let size = parts.layout.variables();
         let unknowns = Unknowns::ends(&parts.layout);
-        let columns = Columns::new(increment, Ahead::Step, &parts.layout, &unknowns);
+        let looks = (Ahead::Step, parts.layout.level.up_to());
+        let columns = Columns::new((increment, Basis::Shapes), looks, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
         Self {
             mu,
@@ -72,7 +73,7 @@ impl Explicit {
 
     /// Goes on with the solution.
     fn take(&mut self, length: f64) {
-        self.columns.settle(0.0);
+        self.columns.settle();
         self.history.push(length, &self.values);
     }
 

@@ -26,8 +26,8 @@ struct Group {
     noise: f64,
 }
 
-/// What columns of an earlier step may leave of a correction. The error that they leave changes from step to step, so it is worse
-/// for the motion than an error of the multipliers of the same size that is smooth.
+/// What columns of an earlier step may leave of a correction where steps are fixed. The error that they leave changes from step to step, so it is
+/// worse for the motion than an error of the multipliers of the same size that is smooth, and nothing else limits it.
 pub const MOST_LEFT: f64 = 1e-4;
 
 /// Where new columns leave more than this share of a change, the change is noise.

@@ -5,7 +5,7 @@
 //! * [`unknowns`]: what is solved for of every coupling variable;
 //! * [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
-//! * [`columns`]: increments and finite differences;
+//! * [`columns`]: increments, finite differences, and responses that stay in use;
 //! * [`position_error`]: errors of positions by those of the multipliers;
 //! * [`error_estimate`]: the error of a macro step against the tolerance;
 //! * [`degree_choice`], [`automatic_degrees`]: degrees of polynomials that follow the estimates;
@@ -17,7 +17,6 @@
 //! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
 
 pub mod automatic_degrees;
-pub mod carriage;
 pub mod columns;
 pub mod condition;
 pub mod corrector;

@@ -251,7 +251,7 @@ impl Uncorrected for Penalty {
         if let Some(sequence) = &mut self.sequence {
             sequence.outputs.push(step.length, &sequence.ends);
             if let Some(unbalanced) = &mut sequence.unbalanced {
-                unbalanced.move_on(step.length);
+                unbalanced.move_on();
             }
         }
     }

@@ -3,8 +3,7 @@
 mod errors;
 
 use super::automatic_degrees::{AutomaticDegrees, StepDegrees};
-use super::carriage::Nodes;
-use super::columns::{Columns, Look};
+use super::columns::{Basis, Columns, Look, Nodes};
 use super::condition::{Condition, check_finite};
 use super::corrector::{Again, Corrector, Missed};
 use super::degree_choice::Purpose;
@@ -27,6 +26,7 @@ use crate::time::MacroStep;
 /// State of a semi-implicit method between two macro steps.
 pub struct SemiImplicit {
     condition: Condition,
+    basis: Basis,
     history: History,
     /// The history before the last step.
     before: History,
@@ -60,10 +60,10 @@ pub struct SemiImplicit {
 }
 
 impl SemiImplicit {
-    /// The method with coupling variables `history` up to the first macro point.
+    /// The method with coupling variables `history` up to the first macro point; inputs are raised in the curves of `basis`.
     pub fn new(
         condition: Condition,
-        increment: Increment,
+        (increment, basis): (Increment, Basis),
         mut history: History,
         mut automatic: Option<AutomaticDegrees>,
         parts: &Parts,
@@ -74,10 +74,12 @@ impl SemiImplicit {
         let size = parts.layout.variables();
         let zeros = || vec![0.0; size];
         let unknowns = Unknowns::ends(&parts.layout);
-        let columns = Columns::new(increment, Ahead::Step, &parts.layout, &unknowns);
+        let looks = (Ahead::Step, parts.layout.level.up_to());
+        let columns = Columns::new((increment, basis), looks, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
         Self {
             condition,
+            basis,
             before: history.clone(),
             history,
             rows: parts.layout.rows.len(),
@@ -103,11 +105,14 @@ impl SemiImplicit {
     }
 }
 
-/// Past nodes and degrees of the polynomials over the next step.
-fn nodes_of(history: &History) -> Nodes<'_> {
-    Nodes {
-        times: history.reached_times(),
-        degrees: history.degrees(),
+/// Past nodes and degrees of the polynomials over the next step, as far as responses to raised inputs depend on them.
+fn nodes_of(basis: Basis, history: &History) -> Nodes<'_> {
+    match basis {
+        Basis::Shapes => Nodes {
+            times: history.reached_times(),
+            degrees: history.degrees(),
+        },
+        Basis::Powers => Nodes::default(),
     }
 }
 
@@ -220,7 +225,8 @@ impl Corrector for SemiImplicit {
         self.columns.request(parts, look, &mut self.memory);
         self.is_first = true;
         self.promise.forget();
-        self.continues = self.columns.begin(length, nodes_of(&self.history)) && !with_columns;
+        let nodes = nodes_of(self.basis, &self.history);
+        self.continues = self.columns.begin(length, nodes) && !with_columns;
         Ok(())
     }
 
@@ -230,7 +236,7 @@ impl Corrector for SemiImplicit {
         if let Some(automatic) = &mut self.automatic {
             automatic.move_on(&mut self.history);
         }
-        self.columns.settle(step.length);
+        self.columns.settle();
         self.measure.move_on();
         if !self.continues {
             self.shortfall.forget();
@@ -280,8 +286,14 @@ impl Again for SemiImplicit {
         self.measure.of(&self.change, &self.corrected)
     }
 
-    fn has_columns(&self, step: MacroStep) -> bool {
-        self.columns.has(step.length, nodes_of(&self.history))
+    fn prepare_columns(&mut self, parts: &Parts, step: MacroStep) -> Option<f64> {
+        let curves = Lagrange {
+            history: &self.history,
+            curve: Curve::Extrapolated,
+            length: step.length,
+        };
+        let step = (step.length, nodes_of(self.basis, &self.history));
+        self.columns.prepare(&parts.layout, step, &curves)
     }
 
     /// The solution for the conditions at the corrected outputs, with the matrix of the correction.

@@ -258,7 +258,7 @@ impl Uncorrected for Springs {
     fn move_on(&mut self, step: MacroStep) {
         self.history.push(step.length, &self.values);
         if let Some(unbalanced) = &mut self.unbalanced {
-            unbalanced.move_on(step.length);
+            unbalanced.move_on();
         }
     }
 

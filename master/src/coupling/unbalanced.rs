@@ -125,7 +125,7 @@ impl Unbalanced {
         (self.length, self.path) = (step.length, path);
         parts.forgo_advance();
         parts.prepare_prediction(step.start, step.length);
-        self.request(parts, step.length, value);
+        self.request(parts, value);
         exchange(&mut parts.subsystems, step)?;
         parts.forgo_prediction();
         for (input, column) in parts.layout.inputs.iter().zip(&mut self.columns) {
@@ -138,7 +138,7 @@ impl Unbalanced {
         Ok(())
     }
 
-    fn request(&mut self, parts: &mut Parts, length: f64, value: impl Fn(&DrivenInput) -> f64) {
+    fn request(&mut self, parts: &mut Parts, value: impl Fn(&DrivenInput) -> f64) {
         for (subsystem, &raised) in parts.subsystems.iter_mut().zip(&self.raised) {
             if subsystem.is_read() {
                 let look = subsystem.look(Ahead::Step);
@@ -156,8 +156,7 @@ impl Unbalanced {
             let Some(place) = column.place else {
                 continue;
             };
-            let audible = subsystem.noise().map(|noise| column.audible(length, noise));
-            column.choose_increment(Increment::Automatic, now, audible);
+            column.choose_increment(Increment::Automatic, now, None);
             let raised = subsystem.perturbed_signal(Ahead::Step, place, input.place);
             raised.set_constant(now + column.increment);
         }
@@ -234,12 +233,9 @@ impl Unbalanced {
     }
 
     /// The step that was tried stays.
-    pub fn move_on(&mut self, length: f64) {
+    pub fn move_on(&mut self) {
         for pace in self.paces.iter_mut().flatten().flatten() {
             (pace.time, pace.velocity) = pace.tried;
-        }
-        for column in &mut self.columns {
-            column.keep_response(length);
         }
     }
 }

@@ -3,7 +3,7 @@
 use linchpin_proto::v1::Signal;
 use nalgebra::UnitQuaternion;
 
-use super::{Curve, History};
+use super::{Curve, History, SharePolynomial};
 
 /// Curves over a step from `tau = 0` to its length.
 pub trait Curves {
@@ -19,8 +19,16 @@ pub trait Curves {
     /// The signal of `sum_i factor_i variable_i`, all of one kind.
     fn signal(&self, combination: &[(usize, f64)], signal: &mut Signal);
 
-    /// Value at `tau` of shape number `shape` of a variable: that of one of the unknowns that its curve is made of.
-    fn shape(&self, variable: usize, shape: usize, tau: f64) -> f64;
+    /// Shape number `shape` of a variable: that of one of the unknowns that its curve is made of.
+    fn shape(&self, variable: usize, shape: usize) -> SharePolynomial;
+
+    /// The share of the step at `tau`; a step of no length is at its end.
+    fn share(&self, tau: f64) -> f64 {
+        match self.length() {
+            0.0 => 1.0,
+            length => tau / length,
+        }
+    }
 }
 
 /// The Lagrange polynomials through past values, and the end value if the curve has it as a node. The one unknown of each
@@ -53,7 +61,7 @@ impl Curves for Lagrange<'_> {
             .signal(combination, self.curve, self.length, signal);
     }
 
-    fn shape(&self, variable: usize, _shape: usize, tau: f64) -> f64 {
-        self.history.end_basis(variable, self.length, tau)
+    fn shape(&self, variable: usize, _shape: usize) -> SharePolynomial {
+        self.history.end_shape(variable, self.length)
     }
 }

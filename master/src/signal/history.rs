@@ -8,6 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 
 use super::attitude::{attitude, rotation_vector};
 use super::interpolation_error::{ErrorShares, ExtrapolationMiss};
+use super::share::SharePolynomial;
 
 /// Highest degree `k` of the polynomials of coupling variables.
 pub const MAX_DEGREE: usize = 3;
@@ -289,11 +290,10 @@ impl History {
             .map_or(f64::NAN, |polynomial| polynomial.value(tau))
     }
 
-    /// Value at `tau` of the polynomial of a variable's interpolation that is 1 at the end of the step and 0 at its other
-    /// nodes.
-    pub fn end_basis(&self, variable: usize, step: f64, tau: f64) -> f64 {
-        let factors = self.times[..self.past_nodes(variable, true)].iter();
-        factors.map(|time| (tau - time) / (step - time)).product()
+    /// The polynomial of a variable's interpolation that is 1 at the end of the step and 0 at its other nodes.
+    pub fn end_shape(&self, variable: usize, step: f64) -> SharePolynomial {
+        let past = self.times[..self.past_nodes(variable, true)].iter();
+        SharePolynomial::with_roots(past.map(|time| time / step), 1.0)
     }
 }
 
@@ -348,7 +348,7 @@ mod tests {
         let mut signal = Signal::default();
         history.signal(&FIRST, Curve::Interpolated(&[7.0]), 0.1, &mut signal);
         assert_eq!(value_at(&signal, 0.03), 7.0);
-        assert_eq!(history.end_basis(0, 0.1, 0.03), 1.0);
+        assert_eq!(history.end_shape(0, 0.1).value(0.3), 1.0);
     }
 
     #[test]
@@ -373,7 +373,7 @@ mod tests {
         assert!((history.value(1, curve, 0.3, 0.2) - parabola(t + 0.2)).abs() < 1e-13);
         let raised = [0.0, ends[1] + 1.0];
         let shape = history.value(1, Curve::Interpolated(&raised), 0.3, 0.2) - parabola(t + 0.2);
-        assert!((history.end_basis(1, 0.3, 0.2) - shape).abs() < 1e-13);
+        assert!((history.end_shape(1, 0.3).value(0.2 / 0.3) - shape).abs() < 1e-13);
     }
 
     /// A body that turns about a fixed axis at a constant rate, through many turns.

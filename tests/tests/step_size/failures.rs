@@ -100,10 +100,6 @@ fn a_step_that_a_worker_cannot_take_is_repeated_and_leaves_no_trace() {
                 let own = run_brittle(&scene, judge, way, &Options::default()).unwrap();
                 assert!(own.bits() == found.bits(), "{way:?} {context}");
             }
-            if coupling.contains("reuse") || coupling == "method=hermite" {
-                // Kept columns depend on where new ones were asked for.
-                continue;
-            }
             let options = Options {
                 step_lengths: Some(found.steps.clone()),
                 ..Options::default()

@@ -2,7 +2,7 @@
 
 use super::{Hermite, largest_changes};
 use crate::cosimulation::Parts;
-use crate::coupling::carriage::Nodes;
+use crate::coupling::columns::Nodes;
 use crate::coupling::corrector::{Again, Missed};
 use crate::coupling::measure::Change;
 use crate::signal::Curves;
@@ -26,8 +26,9 @@ impl Again for Hermite {
         self.measure.of(&self.changes, self.sample.ends())
     }
 
-    fn has_columns(&self, step: MacroStep) -> bool {
-        self.end.columns.has(step.length, Nodes::default())
+    fn prepare_columns(&mut self, parts: &Parts, step: MacroStep) -> Option<f64> {
+        let step = (step.length, Nodes::default());
+        self.end.columns.prepare(&parts.layout, step, &self.arcs)
     }
 
     /// The solution for the conditions at the outputs after the advance, with the matrix of the correction.

@@ -3,12 +3,11 @@
 use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::share::SharePolynomial;
 use super::variant::Variant;
 use crate::coupling::layout::Layout;
 use crate::coupling::unknowns::Unknowns;
 use crate::signal::attitude::{attitude, rotation_of_change};
-use crate::signal::{Curve, Curves, ErrorShares, History, vector_at};
+use crate::signal::{Curve, Curves, ErrorShares, History, SharePolynomial, vector_at};
 
 /// What a variable is, and so what its curve is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -69,7 +68,7 @@ impl Shapes {
         };
         let at = |node: f64| {
             let roots = all.iter().copied().filter(|other| *other != node);
-            SharePolynomial::with_roots(&roots.collect::<Vec<_>>(), node)
+            SharePolynomial::with_roots(roots, node)
         };
         let has_acceleration = variant.motion_degree() == 4;
         let motion = match has_acceleration {
@@ -366,10 +365,10 @@ impl Curves for Arcs {
         }
     }
 
-    fn shape(&self, variable: usize, shape: usize, tau: f64) -> f64 {
+    fn shape(&self, variable: usize, shape: usize) -> SharePolynomial {
         match self.kinds[variable] {
-            Kind::Signal => self.history.end_basis(variable, self.length, tau),
-            kind => self.shapes.of(kind)[shape].value(tau / self.length),
+            Kind::Signal => self.history.end_shape(variable, self.length),
+            kind => self.shapes.of(kind)[shape],
         }
     }
 }

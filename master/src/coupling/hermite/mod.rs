@@ -28,16 +28,14 @@ mod arcs;
 mod estimate;
 mod held;
 mod sample;
-mod share;
 mod stack;
 mod variant;
 
-use super::carriage::Nodes;
-use super::columns::{Columns, Look};
+use super::columns::{Basis, Columns, Look, Nodes};
 use super::condition::{SingularRow, check_finite};
 use super::corrector::Corrector;
 use super::error_estimate::{ErrorScales, Estimate};
-use super::layout::Over;
+use super::layout::{Layout, Over};
 use super::measure::Measure;
 use super::position_error::PositionErrors;
 use super::promise::Promise;
@@ -107,9 +105,14 @@ struct Linear {
 }
 
 impl Linear {
-    fn new(increment: Increment, ahead: Ahead, parts: &Parts, unknowns: Unknowns) -> Self {
+    fn new(
+        increment: Increment,
+        looks: (Ahead, &'static [Level]),
+        parts: &Parts,
+        unknowns: Unknowns,
+    ) -> Self {
         Self {
-            columns: Columns::new(increment, ahead, &parts.layout, &unknowns),
+            columns: Columns::new((increment, Basis::Powers), looks, &parts.layout, &unknowns),
             system: System::new(&parts.layout, unknowns),
         }
     }
@@ -134,12 +137,14 @@ impl Hermite {
         let unknowns = unknowns_of(layout, variant);
         let mut arcs = Arcs::new(layout, variant, unknowns.clone(), history);
         start_motion(&mut arcs, parts);
-        let start = Linear::new(increment, Ahead::Now, parts, Unknowns::ends(layout));
+        let looks = (Ahead::Now, &[Level::Acceleration][..]);
+        let start = Linear::new(increment, looks, parts, Unknowns::ends(layout));
         let start_solver = LinearSolver::new(start.system.pattern());
         let sample = Sample::new(&unknowns, size);
         let settled = Sample::new(&unknowns, size);
         let change = vec![0.0; unknowns.len()];
-        let end = Linear::new(increment, Ahead::Step, parts, unknowns);
+        let looks = (Ahead::Step, levels_of(variant, layout));
+        let end = Linear::new(increment, looks, parts, unknowns);
         let stack = Stack::new(layout, variant, &end.system, &start.system);
         Self {
             variant,
@@ -304,9 +309,9 @@ impl Corrector for Hermite {
         }
     }
 
-    fn move_on(&mut self, step: MacroStep) {
-        self.start.columns.settle(0.0);
-        self.end.columns.settle(step.length);
+    fn move_on(&mut self, _step: MacroStep) {
+        self.start.columns.settle();
+        self.end.columns.settle();
         if !self.continues {
             self.shortfall.forget();
         }
@@ -329,6 +334,14 @@ impl Corrector for Hermite {
             self.refine_multipliers();
         }
         self.promise.judge(&self.end.system, parts, &self.solution)
+    }
+}
+
+/// The levels of the outputs that the conditions at `T_{N+1}` and exchanged motion are made of.
+fn levels_of(variant: Variant, layout: &Layout) -> &'static [Level] {
+    match layout.exchanged.iter().any(|one| one.rates.is_some()) {
+        true => variant.level().up_to(),
+        false => variant.ends(),
     }
 }
 

@@ -7,8 +7,7 @@ use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::exchanged::PoseVariables;
-use crate::coupling::unknowns::Unknowns;
-use crate::signal::{Curves, combine};
+use crate::signal::{Curves, SharePolynomial, combine};
 
 /// An input of a subsystem and what drives it.
 #[derive(Debug, Clone, PartialEq)]
@@ -152,27 +151,25 @@ impl DrivenInput {
         }
     }
 
-    /// The direction in which [`DrivenInput::raised_signal`] raises the signal: shape number `raised` of its variables.
-    pub fn direction(&self, over: &mut Over<'_>, raised: usize, signal: &mut Signal) {
+    /// The direction in which [`DrivenInput::raised_signal`] raises the signal.
+    pub fn direction(&self, over: &mut Over<'_>, shape: &SharePolynomial, signal: &mut Signal) {
         self.signal(over, signal);
-        let leading = Unknowns::leading(self);
         for (value, &tau) in signal.values.iter_mut().zip(&signal.nodes) {
-            *value = over.curves.shape(leading, raised, tau);
+            *value = shape.value(over.curves.share(tau));
         }
     }
 
-    /// The signal that is higher by `increment` times shape number `raised` of its variables.
+    /// The signal that is higher by `increment` times `shape`, a polynomial of no higher degree.
     pub fn raised_signal(
         &self,
         over: &mut Over<'_>,
-        raised: usize,
+        shape: &SharePolynomial,
         increment: f64,
         signal: &mut Signal,
     ) {
         self.signal(over, signal);
-        let leading = Unknowns::leading(self);
         for (value, &tau) in signal.values.iter_mut().zip(&signal.nodes) {
-            *value += increment * over.curves.shape(leading, raised, tau);
+            *value += increment * shape.value(over.curves.share(tau));
         }
     }
 }

@@ -57,7 +57,12 @@ impl BoundEnd {
 
     /// Places of the coordinates and of the angle or quaternion on position level.
     pub fn positions(&self) -> impl Iterator<Item = usize> {
-        let levels = self.levels.first().into_iter();
+        self.places(Level::Position)
+    }
+
+    /// Places of what is read on a level.
+    pub fn places(&self, level: Level) -> impl Iterator<Item = usize> {
+        let levels = self.levels.get(level as usize).into_iter();
         levels.flat_map(|places| places.position.iter().chain(&places.rotation).copied())
     }
 

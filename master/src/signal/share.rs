@@ -1,21 +1,35 @@
 //! Polynomials of the share `s = tau / H` of a macro step.
 
-/// Number of coefficients: the highest degree is one less.
-pub const TERMS: usize = 5;
+const TERMS: usize = 5;
 
 /// `c_0 + c_1 s + c_2 s^2 + ...`
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SharePolynomial([f64; TERMS]);
 
 impl SharePolynomial {
+    /// Number of coefficients: the highest degree is one less.
+    pub const TERMS: usize = TERMS;
+
     /// The polynomial of these coefficients.
     pub fn new(coefficients: [f64; TERMS]) -> Self {
         Self(coefficients)
     }
 
+    /// `s^power`
+    pub fn power(power: usize) -> Self {
+        let mut coefficients = [0.0; TERMS];
+        coefficients[power] = 1.0;
+        Self(coefficients)
+    }
+
+    /// `c_0, c_1, ...`
+    pub fn coefficients(&self) -> &[f64; TERMS] {
+        &self.0
+    }
+
     /// The polynomial of the lowest degree with the roots `roots` that is 1 at `node`.
-    pub fn with_roots(roots: &[f64], node: f64) -> Self {
-        let mut product = Self([1.0, 0.0, 0.0, 0.0, 0.0]);
+    pub fn with_roots(roots: impl IntoIterator<Item = f64>, node: f64) -> Self {
+        let mut product = Self::power(0);
         for root in roots {
             let scale = 1.0 / (node - root);
             let mut next = [0.0; TERMS];
@@ -57,7 +71,7 @@ mod tests {
     proptest! {
         #[test]
         fn roots_and_node(roots in proptest::collection::vec(-2f64..0.5, 0..4), node in 0.6f64..1.0) {
-            let polynomial = SharePolynomial::with_roots(&roots, node);
+            let polynomial = SharePolynomial::with_roots(roots.iter().copied(), node);
             prop_assert!((polynomial.value(node) - 1.0).abs() < 1e-9);
             for root in roots {
                 prop_assert!(polynomial.value(root).abs() < 1e-6);

@@ -1,0 +1,350 @@
+//! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
+//!
+//! * [`column`]: the response to one raised input, and how much it is raised;
+//! * [`kept`]: responses of earlier macro steps that stay in use;
+//! * [`axes`]: responses that turn with the bodies;
+//! * [`lengths`]: responses over one length, from those that were measured over others.
+
+mod axes;
+mod column;
+mod kept;
+mod lengths;
+
+use std::ops::Range;
+
+use super::layout::{DrivenInput, Layout, Over};
+use super::unknowns::Unknowns;
+use crate::cosimulation::{Ahead, Parts, Subsystem};
+use crate::joint::Level;
+use crate::scene::Increment;
+use crate::signal::{Curves, SharePolynomial};
+
+pub use column::Column;
+use kept::Kept;
+pub use kept::Nodes;
+
+/// The columns of all driven inputs, one for each shape of an input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    rule: Increment,
+    ahead: Ahead,
+    basis: Basis,
+    columns: Vec<Column>,
+    /// The shape of each column in the present step.
+    shapes: Vec<SharePolynomial>,
+    /// The columns of each input.
+    of_input: Vec<Range<usize>>,
+    /// Inputs raised in each of the curves of the basis.
+    raised: Vec<Column>,
+    /// The raised ones of each input.
+    raised_of_input: Vec<Range<usize>>,
+    /// How many of them the present step asks of each subsystem.
+    raised_of_subsystem: Vec<usize>,
+    /// Which ones a step needs.
+    needed: Vec<bool>,
+    /// The responses to them in the present step.
+    responses: Vec<Vec<f64>>,
+    /// Places of the markers' positions in the coupling outputs of each subsystem.
+    positions: Vec<Vec<usize>>,
+    /// Whether the last look-ahead was asked for responses that were not taken yet.
+    are_fresh: bool,
+    kept: Kept,
+    /// Length of the look-ahead in s.
+    length: f64,
+}
+
+/// In which curves inputs are raised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// In the shapes of the unknowns themselves: one each, but where a shape depends on past nodes its response serves with these alone.
+    Shapes,
+    /// In the powers of the share of the step that the shapes are made of: responses to shapes with any past nodes follow from these.
+    Powers,
+}
+
+impl Basis {
+    /// Number of curves for an input with this many shapes.
+    fn curves(self, shapes: usize) -> usize {
+        match self {
+            Self::Shapes => shapes,
+            Self::Powers => SharePolynomial::TERMS,
+        }
+    }
+
+    /// Whether a shape of an input is made of this curve.
+    fn needs(self, (number, shape): (usize, &SharePolynomial), curve: usize) -> bool {
+        match self {
+            Self::Shapes => curve == number,
+            Self::Powers => shape.coefficients()[curve] != 0.0,
+        }
+    }
+}
+
+/// A look-ahead: what it is asked for.
+#[derive(Clone, Copy)]
+pub struct Look<'a> {
+    /// The predicted curves (S1 eq. 56).
+    pub predicted: &'a dyn Curves,
+    /// Curves with the same values at the end of the step that can be raised (S1 eq. 59).
+    pub raised: &'a dyn Curves,
+    /// Predicted values of all variables at the end of the step.
+    pub ends: &'a [f64],
+    /// Whether the response to every raised input is asked for.
+    pub with_columns: bool,
+}
+
+impl Columns {
+    /// The columns of the driven inputs of `layout` over a look-ahead, one for each shape of an input; the conditions are made of outputs on
+    /// `levels`.
+    pub fn new(
+        (rule, basis): (Increment, Basis),
+        (ahead, levels): (Ahead, &'static [Level]),
+        layout: &Layout,
+        unknowns: &Unknowns,
+    ) -> Self {
+        let mut own = Self {
+            rule,
+            ahead,
+            basis,
+            columns: Vec::new(),
+            shapes: Vec::new(),
+            of_input: Vec::new(),
+            raised: Vec::new(),
+            raised_of_input: Vec::new(),
+            raised_of_subsystem: vec![0; layout.outputs.len()],
+            needed: Vec::new(),
+            responses: Vec::new(),
+            positions: positions_of(layout),
+            are_fresh: false,
+            kept: Kept::new(layout, levels),
+            length: 0.0,
+        };
+        for (number, input) in layout.inputs.iter().enumerate() {
+            let numbers = unknowns.columns(number);
+            own.columns.resize_with(numbers.end, Column::default);
+            let first = own.raised.len();
+            if !numbers.is_empty() {
+                let end = first + basis.curves(numbers.len());
+                own.raised.resize_with(end, || Column::new(input, layout));
+            }
+            own.raised_of_input.push(first..own.raised.len());
+            own.of_input.push(numbers);
+        }
+        own.shapes
+            .resize(own.columns.len(), SharePolynomial::default());
+        own.needed.resize(own.raised.len(), false);
+        own.responses.resize_with(own.raised.len(), Vec::new);
+        own
+    }
+
+    /// The columns in the order of the inputs; those of inputs that are not perturbed are empty.
+    pub fn all(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Fills in the look-ahead that was prepared: the predicted curve of every input, and for each perturbed one the curves
+    /// that are raised, if columns are asked for. `memory` has room for one value of every variable.
+    pub fn request(&mut self, parts: &mut Parts, look: Look<'_>, memory: &mut [f64]) {
+        self.are_fresh = look.with_columns;
+        self.length = look.raised.length();
+        self.take_shapes(&parts.layout, look.raised);
+        self.make_room(parts);
+        let mut over = Over {
+            curves: look.predicted,
+            memory,
+        };
+        for (number, input) in parts.layout.inputs.iter().enumerate() {
+            let subsystem = &mut parts.subsystems[input.subsystem];
+            if !subsystem.is_read() {
+                continue;
+            }
+            over.curves = look.predicted;
+            input.signal(&mut over, subsystem.look_signal(self.ahead, input.place));
+            if input.is_perturbed && look.with_columns {
+                over.curves = look.raised;
+                let end = input.value(look.ends, look.raised.attitudes());
+                self.request_raised(subsystem, number, (input, end), &mut over);
+            }
+        }
+    }
+
+    /// The shapes of the columns over these curves, and which raised inputs they need.
+    fn take_shapes(&mut self, layout: &Layout, curves: &dyn Curves) {
+        self.needed.fill(false);
+        let ranges = self.of_input.iter().zip(&self.raised_of_input);
+        for (input, (columns, raised)) in layout.inputs.iter().zip(ranges) {
+            if !input.is_perturbed {
+                continue;
+            }
+            let leading = Unknowns::leading(input);
+            for (number, column) in columns.clone().enumerate() {
+                let shape = curves.shape(leading, number);
+                for (curve, needed) in self.needed[raised.clone()].iter_mut().enumerate() {
+                    *needed |= self.basis.needs((number, &shape), curve);
+                }
+                self.shapes[column] = shape;
+            }
+        }
+    }
+
+    fn make_room(&mut self, parts: &mut Parts) {
+        self.raised_of_subsystem.fill(0);
+        if self.are_fresh {
+            for (input, raised) in parts.layout.inputs.iter().zip(&self.raised_of_input) {
+                let count = &mut self.raised_of_subsystem[input.subsystem];
+                let needed = &self.needed[raised.clone()];
+                for (raised, is_needed) in self.raised[raised.clone()].iter_mut().zip(needed) {
+                    raised.place = is_needed.then_some(*count);
+                    *count += usize::from(*is_needed);
+                }
+            }
+        }
+        for (subsystem, &raised) in parts.subsystems.iter_mut().zip(&self.raised_of_subsystem) {
+            if subsystem.is_read() {
+                let (perturbed, directions) = match subsystem.gives_derivatives(self.rule) {
+                    true => (0, raised),
+                    false => (raised, 0),
+                };
+                let look = subsystem.look(self.ahead);
+                look.perturbed.resize_with(perturbed, Default::default);
+                look.directions.resize_with(directions, Default::default);
+            }
+        }
+    }
+
+    /// Raises an input, whose predicted value at the end of the step is `end`, in the curves that are needed.
+    fn request_raised(
+        &mut self,
+        subsystem: &mut Subsystem,
+        number: usize,
+        (input, end): (&DrivenInput, f64),
+        over: &mut Over<'_>,
+    ) {
+        let gives_derivatives = subsystem.gives_derivatives(self.rule);
+        let first = self.of_input[number].start;
+        let raised = &mut self.raised[self.raised_of_input[number].clone()];
+        for (curve, raised) in raised.iter_mut().enumerate() {
+            let Some(place) = raised.place else {
+                continue;
+            };
+            let shape = match self.basis {
+                Basis::Shapes => self.shapes[first + curve],
+                Basis::Powers => SharePolynomial::power(curve),
+            };
+            if gives_derivatives {
+                let signal = subsystem.direction_signal(self.ahead, place, input.place);
+                input.direction(over, &shape, signal);
+            } else {
+                let noise = subsystem.noise();
+                let audible = noise.map(|noise| raised.audible(self.length, noise));
+                raised.choose_increment(self.rule, end, audible);
+                let signal = subsystem.perturbed_signal(self.ahead, place, input.place);
+                input.raised_signal(over, &shape, raised.increment, signal);
+            }
+        }
+    }
+
+    /// Looks for responses of earlier macro steps for a look-ahead of this length over these curves, with these past nodes. Gives the
+    /// share of them that may be wrong because they were measured over other lengths; `None` if there are none.
+    pub fn prepare(
+        &mut self,
+        layout: &Layout,
+        (length, nodes): (f64, Nodes<'_>),
+        curves: &dyn Curves,
+    ) -> Option<f64> {
+        self.take_shapes(layout, curves);
+        let needed = (&self.raised_of_input[..], &self.needed[..]);
+        self.kept.prepare(layout, (length, nodes), needed)
+    }
+
+    /// Begins with the first look-ahead over a macro step, or over a repeated one, of this length and with these past nodes. Gives
+    /// whether the macro step before was such a one.
+    pub fn begin(&mut self, length: f64, nodes: Nodes<'_>) -> bool {
+        self.raised.iter_mut().for_each(Column::drop_response);
+        self.kept.begin(length, nodes)
+    }
+
+    /// The step is done: its responses may serve later ones, and increments are chosen by them.
+    pub fn settle(&mut self) {
+        self.kept.settle();
+        self.raised.iter_mut().for_each(Column::keep_response);
+    }
+
+    /// Takes the difference quotients of the last answers of all workers, if columns were asked for; otherwise carries earlier
+    /// ones along to the attitudes of the last prediction.
+    pub fn difference(&mut self, parts: &Parts) {
+        let ahead = self.ahead;
+        let looked = |subsystem: usize| match ahead {
+            Ahead::Step => parts.subsystems[subsystem].predicted(),
+            Ahead::Now => parts.subsystems[subsystem].coupling_values(),
+        };
+        if std::mem::take(&mut self.are_fresh) {
+            self.take_responses(parts);
+            self.kept.keep(&parts.layout, looked, &self.responses);
+        } else {
+            let own = &self.raised_of_input;
+            self.kept
+                .carry(&parts.layout, looked, own, &mut self.responses);
+        }
+        self.combine();
+    }
+
+    fn take_responses(&mut self, parts: &Parts) {
+        for (input, own) in parts.layout.inputs.iter().zip(&self.raised_of_input) {
+            let subsystem = &parts.subsystems[input.subsystem];
+            let (predicted, perturbed) = subsystem.looked(self.ahead);
+            let responses = self.responses[own.clone()].iter_mut();
+            for (raised, response) in self.raised[own.clone()].iter_mut().zip(responses) {
+                response.clear();
+                let Some(place) = raised.place else {
+                    continue;
+                };
+                if subsystem.gives_derivatives(self.rule) {
+                    let derivatives = &subsystem.derivatives(self.ahead)[place].values;
+                    raised.derivatives.clone_from(derivatives);
+                } else {
+                    raised.difference(predicted, &perturbed[place].values);
+                }
+                raised.note_response(&self.positions[input.subsystem], self.length);
+                response.clone_from(&raised.derivatives);
+            }
+        }
+    }
+
+    /// The columns from the responses in the present step.
+    fn combine(&mut self) {
+        for (columns, raised) in self.of_input.iter().zip(&self.raised_of_input) {
+            let responses = &self.responses[raised.clone()];
+            for (number, column) in columns.clone().enumerate() {
+                let derivatives = &mut self.columns[column].derivatives;
+                match self.basis {
+                    Basis::Shapes => derivatives.clone_from(&responses[number]),
+                    Basis::Powers => {
+                        let coefficients = self.shapes[column].coefficients();
+                        add_up(responses.iter().zip(coefficients), derivatives);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `sum coefficient response`; responses that are not known have no part in it.
+fn add_up<'a>(terms: impl Iterator<Item = (&'a Vec<f64>, &'a f64)>, sums: &mut Vec<f64>) {
+    sums.clear();
+    for (response, coefficient) in terms {
+        sums.resize(sums.len().max(response.len()), 0.0);
+        for (sum, one) in sums.iter_mut().zip(response) {
+            *sum += coefficient * one;
+        }
+    }
+}
+
+/// Places of the markers' positions in the coupling outputs of each subsystem.
+fn positions_of(layout: &Layout) -> Vec<Vec<usize>> {
+    let mut positions = vec![Vec::new(); layout.outputs.len()];
+    for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
+        positions[end.subsystem].extend(end.positions());
+    }
+    positions
+}
