@@ -7,6 +7,9 @@ use crate::cosimulation::Parts;
 use crate::joint::Level;
 use crate::time::MacroStep;
 
+/// Share of the allowed opening that a joint may have at the start of a step and still has to be closed in it.
+const MOST_KEPT_OPEN: f64 = 0.5;
+
 /// A correction that was solved for, as far as its error is concerned.
 #[derive(Clone, Copy)]
 pub struct Correction<'a> {
@@ -56,7 +59,8 @@ impl PositionErrors {
         }
     }
 
-    /// Adds the openings of the joints at the end of the step.
+    /// Adds the openings of the joints at the end of the step. A joint that is open by more than half of what is allowed at the start of the step
+    /// need not be closed more than to that: no shorter step would do it.
     pub fn add_openings(
         &mut self,
         parts: &Parts,
@@ -66,12 +70,18 @@ impl PositionErrors {
     ) {
         let system = correction.system;
         system.shift(Level::Position, correction.change, &mut self.shift);
-        let rows = parts.layout.rows.len();
-        let openings = system.residual(Level::Position).iter().zip(&self.shift);
-        for (row, (predicted, shift)) in openings.take(rows).enumerate() {
-            let allowed = scales.allowed_of_opening(&parts.layout, row);
-            let scaled = (predicted + shift).abs() / allowed;
-            estimate.add(scaled, correction.order, Suspect::Opening(row));
+        let ends = system.residual(Level::Position).iter().zip(&self.shift);
+        let mut ends = ends.enumerate();
+        for (number, joint) in parts.layout.joints.iter().enumerate() {
+            let [[length, _], [angle, _]] = openings(parts, number);
+            let rows = joint.joint.conditions().zip(&mut ends);
+            for (condition, (row, (predicted, shift))) in rows {
+                let before = if condition.is_length() { length } else { angle };
+                let allowed = scales.allowed_of_opening(&parts.layout, row);
+                let inherited = (before - MOST_KEPT_OPEN * allowed).max(0.0);
+                let scaled = ((predicted + shift).abs() - inherited) / allowed;
+                estimate.add(scaled, correction.order, Suspect::Opening(row));
+            }
         }
     }
 
@@ -85,7 +95,8 @@ impl PositionErrors {
         scales: &ErrorScales,
         estimate: &mut Estimate,
     ) {
-        let [length, angle] = inherited_opening(parts, number, step);
+        // How far the joint would be open at the end of the step if no load closed it.
+        let inherited = openings(parts, number).map(|[opening, rate]| opening + step.length * rate);
         for end in &parts.layout.joints[number].ends {
             let subsystem = end.subsystem;
             let columns = correction.system.columns_of(&parts.layout, subsystem);
@@ -94,10 +105,8 @@ impl PositionErrors {
                     let response = correction.columns.all()[column].derivatives.get(output)?;
                     Some(response * self.raised[column])
                 });
-                let inherited = match end.coordinates().contains(&output) {
-                    true => length,
-                    false => angle,
-                };
+                let is_angle = !end.coordinates().contains(&output);
+                let inherited = inherited[usize::from(is_angle)];
                 let error = responses.sum::<f64>().abs() - correction.share.abs() * inherited;
                 let scaled = error / scales.allowed_of_output(subsystem, output);
                 estimate.add(
@@ -110,16 +119,17 @@ impl PositionErrors {
     }
 }
 
-/// How far a joint would be open at the end of the step if no load closed it, in m and in rad.
-fn inherited_opening(parts: &Parts, number: usize, step: MacroStep) -> [f64; 2] {
+/// How far a joint is open at the start of the step, and how fast it opens, in m and in rad.
+fn openings(parts: &Parts, number: usize) -> [[f64; 2]; 2] {
     let layout = &parts.layout;
     let outputs = |subsystem: usize| parts.subsystems[subsystem].coupling_values();
     let motion = motion_of(layout, number, outputs);
-    let mut openings = [0.0_f64; 2];
+    let mut openings = [[0.0_f64; 2]; 2];
     for condition in layout.joints[number].joint.conditions() {
         let values = condition.values(layout.level, &motion);
-        let opening = &mut openings[usize::from(!condition.is_length())];
-        *opening = opening.max(values[0].abs() + step.length * values[1].abs());
+        let [opening, rate] = &mut openings[usize::from(!condition.is_length())];
+        *opening = opening.max(values[0].abs());
+        *rate = rate.max(values[1].abs());
     }
     openings
 }

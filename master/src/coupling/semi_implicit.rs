@@ -2,6 +2,7 @@
 
 mod errors;
 
+use super::attempts::Attempts;
 use super::automatic_degrees::{AutomaticDegrees, StepDegrees};
 use super::columns::{Basis, Columns, Look, Nodes};
 use super::condition::{Condition, check_finite};
@@ -38,6 +39,7 @@ pub struct SemiImplicit {
     change: Vec<f64>,
     shortfall: Shortfall,
     corrected: Vec<f64>,
+    attempts: Attempts,
     promise: Promise,
     /// Errors of the multipliers as the positions feel them.
     load_errors: Vec<f64>,
@@ -88,6 +90,7 @@ impl SemiImplicit {
             change: zeros(),
             shortfall: Shortfall::new(size),
             corrected: zeros(),
+            attempts: Attempts::default(),
             promise: Promise::new(size),
             load_errors: zeros(),
             position_errors: PositionErrors::new(size),
@@ -148,6 +151,9 @@ impl Corrector for SemiImplicit {
         for (corrected, (predicted, change)) in self.corrected.iter_mut().zip(ends) {
             *corrected = predicted + change;
         }
+        if self.is_first {
+            self.attempts.correct(step.length, &self.corrected);
+        }
         self.promise.take(&self.system);
         check_finite(&self.corrected, parts, step)
     }
@@ -205,6 +211,7 @@ impl Corrector for SemiImplicit {
         with_columns: bool,
     ) -> Result<(), RunError> {
         let length = step.length;
+        self.attempts.repeat();
         for (variable, predicted) in self.predicted.iter_mut().enumerate() {
             let curve = Curve::Extrapolated;
             *predicted = self.history.value(variable, curve, length, length);
@@ -231,6 +238,7 @@ impl Corrector for SemiImplicit {
     }
 
     fn move_on(&mut self, step: MacroStep) {
+        self.attempts.move_on();
         self.before.copy_from(&self.history);
         self.history.push(step.length, &self.corrected);
         if let Some(automatic) = &mut self.automatic {

@@ -122,6 +122,11 @@ impl History {
         self.smooth_points[variable]
     }
 
+    /// Whether the interpolation of a variable over the next step is a chord because it has no longer past.
+    pub fn is_chord(&self, variable: usize) -> bool {
+        self.times.len() == 1 && self.past_nodes(variable, true) == 1
+    }
+
     /// Degree of the interpolation of a variable over the next step.
     pub fn interpolated_degree(&self, variable: usize) -> usize {
         self.past_nodes(variable, true)

@@ -178,6 +178,12 @@ impl Arcs {
         }
     }
 
+    /// The value of a connected signal at the present macro point if its curve over the step is a chord because it has no longer past.
+    pub fn chord_start(&self, variable: usize) -> Option<f64> {
+        let is_chord = self.history.is_chord(variable);
+        is_chord.then(|| self.history.newest()[variable])
+    }
+
     /// What the difference between corrected and predicted end value tells of a connected signal.
     pub fn signal_error(&self, variable: usize, step: f64) -> ErrorShares {
         self.history.error_shares(variable, step)

@@ -2,6 +2,7 @@
 
 use super::Hermite;
 use crate::cosimulation::Parts;
+use crate::coupling::attempts::CHORD_ORDER;
 use crate::coupling::error_estimate::{ErrorScales, Estimate, Suspect};
 use crate::coupling::position_error::Correction;
 use crate::time::MacroStep;
@@ -43,21 +44,33 @@ impl Hermite {
             .add_errors(parts, step, correction, scales, &mut estimate);
         self.position_errors
             .add_openings(parts, correction, scales, &mut estimate);
+        self.add_errors_of_exchanged(parts, step, scales, &mut estimate);
+        estimate
+    }
+
+    fn add_errors_of_exchanged(
+        &self,
+        parts: &Parts,
+        step: MacroStep,
+        scales: &ErrorScales,
+        estimate: &mut Estimate,
+    ) {
         for exchanged in &parts.layout.exchanged {
             let allowed = scales.allowed_of_variable(exchanged.subsystem, exchanged.what);
             for variable in exchanged.first..exchanged.first + exchanged.size() {
-                let (share, order) = match exchanged.rates {
-                    Some(_) => (MOTION_SHARE, MOTION_ORDER),
-                    None => {
+                let change = self.change[self.end.system.unknowns().of(variable).start];
+                let start = self.arcs.chord_start(variable);
+                let chord = start.and_then(|start| self.attempts.chord_error(variable, start));
+                let (error, order) = match (exchanged.rates.is_some(), chord) {
+                    (true, _) => (MOTION_SHARE * change, MOTION_ORDER),
+                    (false, Some(error)) => (error, CHORD_ORDER),
+                    (false, None) => {
                         let shares = self.arcs.signal_error(variable, step.length);
-                        (shares.mean, shares.order)
+                        (shares.mean * change, shares.order)
                     }
                 };
-                let change = self.change[self.end.system.unknowns().of(variable).start];
-                let scaled = (share * change).abs() / allowed;
-                estimate.add(scaled, order, Suspect::Variable(variable));
+                estimate.add(error.abs() / allowed, order, Suspect::Variable(variable));
             }
         }
-        estimate
     }
 }

@@ -31,6 +31,7 @@ mod sample;
 mod stack;
 mod variant;
 
+use super::attempts::Attempts;
 use super::columns::{Basis, Columns, Look, Nodes};
 use super::condition::{SingularRow, check_finite};
 use super::corrector::Corrector;
@@ -83,6 +84,7 @@ pub struct Hermite {
     change: Vec<f64>,
     shortfall: Shortfall,
     accelerations: Vec<f64>,
+    attempts: Attempts,
     promise: Promise,
     /// Whether the look-ahead is the first one over its step.
     is_first: bool,
@@ -167,6 +169,7 @@ impl Hermite {
             shortfall: Shortfall::new(change.len()),
             change,
             accelerations: vec![0.0; size],
+            attempts: Attempts::default(),
             promise: Promise::new(size),
             is_first: true,
             continues: false,
@@ -224,6 +227,9 @@ impl Hermite {
         }
         self.arcs.change(&self.change);
         self.sample.take(&self.arcs);
+        if self.is_first {
+            self.attempts.correct(step.length, self.sample.ends());
+        }
         check_finite(self.sample.ends(), parts, step)?;
         largest_changes(self.end.system.unknowns(), &self.change, &mut self.changes);
         self.foresee_accelerations(step.length);
@@ -256,6 +262,7 @@ impl Corrector for Hermite {
         step: MacroStep,
         with_columns: bool,
     ) -> Result<(), RunError> {
+        self.attempts.repeat();
         self.arcs.predict(step.length);
         self.sample.take(&self.arcs);
         check_finite(self.sample.ends(), parts, step)?;
@@ -310,6 +317,7 @@ impl Corrector for Hermite {
     }
 
     fn move_on(&mut self, _step: MacroStep) {
+        self.attempts.move_on();
         self.start.columns.settle();
         self.end.columns.settle();
         if !self.continues {

@@ -2,6 +2,7 @@
 
 use super::SemiImplicit;
 use crate::cosimulation::Parts;
+use crate::coupling::attempts::CHORD_ORDER;
 use crate::coupling::automatic_degrees::Group;
 use crate::coupling::degree_choice::{Prospect, Prospects, Purpose};
 use crate::coupling::error_estimate::{ErrorScales, Estimate, Suspect};
@@ -39,6 +40,7 @@ impl SemiImplicit {
     /// The error with polynomials of these degrees; `None` is the present one. Positions hardly feel which degree the corrected values
     /// were solved with, so one correction tells the errors of all.
     fn estimate_with(&mut self, solved: Solved<'_>, degrees: [Option<usize>; 2]) -> Estimate {
+        let Solved { parts, scales, .. } = solved;
         let mut estimate = Estimate::NONE;
         let shares = self.add_errors_of_multipliers(solved, degrees[0], &mut estimate);
         let correction = Correction {
@@ -50,7 +52,7 @@ impl SemiImplicit {
             order: shares.order + 2,
         };
         self.position_errors
-            .add_openings(solved.parts, correction, solved.scales, &mut estimate);
+            .add_openings(parts, correction, scales, &mut estimate);
         self.add_errors_of_exchanged(solved, degrees[1], &mut estimate);
         estimate
     }
@@ -97,12 +99,26 @@ impl SemiImplicit {
                 .scales
                 .allowed_of_variable(exchanged.subsystem, exchanged.what);
             for variable in exchanged.first..exchanged.first + exchanged.size() {
-                let (miss, shares) = self.miss(variable, degree, solved.step);
-                let error = shares.mean * miss;
+                let (error, order) = match self.chord_error(variable) {
+                    Some(error) => (error, CHORD_ORDER),
+                    None => {
+                        let (miss, shares) = self.miss(variable, degree, solved.step);
+                        (shares.mean * miss, shares.order)
+                    }
+                };
                 let suspect = Suspect::Variable(variable);
-                estimate.add(error.abs() / allowed, shares.order, suspect);
+                estimate.add(error.abs() / allowed, order, suspect);
             }
         }
+    }
+
+    /// At the start, from the second attempt at the first step on.
+    fn chord_error(&self, variable: usize) -> Option<f64> {
+        let is_chord = self.history.is_chord(variable);
+        let start = self.history.newest()[variable];
+        is_chord
+            .then(|| self.attempts.chord_error(variable, start))
+            .flatten()
     }
 
     /// Difference between the corrected end value of a variable and its extrapolation, and what it tells.
