@@ -16,9 +16,11 @@ const LOAD_DEGREE: usize = 5;
 /// How each subsystem takes loads whose direction turns with the bodies.
 pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<LoadForm>, RunError> {
     let coupling = &scene.coupling;
-    // Responses to force and moment turn with the body; those to a multiplier also turn with its partner, so they grow old sooner.
-    let turns_with_the_body =
-        matches!(coupling.method, Method::Hermite { .. }) && coupling.jacobian == Jacobian::Reuse;
+    // Responses to force and moment turn with the body; those to a multiplier also turn with its partner, so they grow old sooner. What the form
+    // of the load adds to the error of S1's methods counts where nothing controls the error.
+    let is_controlled =
+        matches!(coupling.method, Method::Hermite { .. }) || coupling.step_control.is_some();
+    let turns_with_the_body = is_controlled && coupling.jacobian == Jacobian::Reuse;
     let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
         let capabilities = model.capabilities.unwrap_or_default();
         match coupling.loads {
