@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use linchpin::connect::Place;
-use linchpin_master::scene::{Scene, is_study, load};
+use linchpin_master::scene::{Jacobian, Scene, is_study, load};
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -108,6 +108,33 @@ fn nearly_all_steps_of_every_shipped_scene_need_no_columns() {
             corrections.passes as f64 / all as f64
         );
     }
+}
+
+/// Also where steps vary as the scenes say: responses over one length follow from those over others.
+#[test]
+fn steps_that_follow_the_error_need_no_columns_either() {
+    let all = scenes().into_iter();
+    let varying = all.filter(|(_, scene)| scene.coupling.step_control.is_some());
+    let mut count = 0;
+    for (name, scene) in varying {
+        count += 1;
+        let run_with = |jacobian| {
+            let mut own = scene.clone();
+            own.coupling.jacobian = jacobian;
+            run(&own, Place::InProcess)
+        };
+        let (reuse, every) = (run_with(Jacobian::Reuse), run_with(Jacobian::EveryStep));
+        let with = reuse.statistics.corrections.steps_with_columns;
+        let steps = reuse.statistics.macro_steps;
+        let context = format!(
+            "{name}: {with} of {steps} steps with columns, {} integrations, {} with columns in every step",
+            reuse.integrations, every.integrations
+        );
+        println!("{context}");
+        assert!(10 * with <= steps, "{context}");
+        assert!(reuse.integrations < every.integrations, "{context}");
+    }
+    assert!(count >= 5, "{count}");
 }
 
 /// Root mean square distance of a column from the reference, and its size.

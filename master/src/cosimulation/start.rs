@@ -19,7 +19,7 @@ use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
 use super::{panels, penalty};
 use crate::connection::{Connection, StartError};
 use crate::coupling::automatic_degrees::{AutomaticDegrees, StepDegrees};
-use crate::coupling::columns::Basis;
+use crate::coupling::columns::{Basis, Measuring};
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
@@ -345,7 +345,7 @@ fn begin(
             };
             let values = start.map_or(&values[..variables.degrees.len()], |start| start);
             let history = History::new(variables, values, attitudes);
-            let method = Hermite::new(variant, coupling.increment, history, parts);
+            let method = Hermite::new(variant, measuring(coupling), history, parts);
             return begin_corrected(Box::new(method), parts, plan, step_size);
         }
         Method::Explicit { mu } => {
@@ -387,17 +387,23 @@ fn begin(
     let first = first_step(plan).length;
     let given = options.degrees.clone();
     let automatic = AutomaticDegrees::new(coupling.method, &parts.layout, highest, first, given);
-    let columns = (coupling.increment, basis_of(coupling));
-    let method = SemiImplicit::new(condition, columns, history, automatic, parts);
+    let method = SemiImplicit::new(condition, measuring(coupling), history, automatic, parts);
     begin_corrected(Box::new(method), parts, plan, step_size)
 }
 
-/// Where steps or degrees vary, the past nodes of the polynomials do; columns that stay in use must serve with any of them.
-fn basis_of(coupling: &Coupling) -> Basis {
+/// Where steps or degrees vary, the past nodes of the polynomials do: columns that stay in use must serve with any of them. With Hermite coupling there
+/// are as many powers as shapes, and between lengths they are found more easily: their responses do not pass through zero.
+fn measuring(coupling: &Coupling) -> Measuring {
+    let is_hermite = matches!(coupling.method, Method::Hermite { .. });
     let varies = coupling.step_control.is_some() || coupling.has_automatic_degree();
-    match coupling.jacobian {
-        Jacobian::Reuse if varies => Basis::Powers,
-        Jacobian::Reuse | Jacobian::EveryStep => Basis::Shapes,
+    let stay = coupling.jacobian == Jacobian::Reuse;
+    Measuring {
+        increment: coupling.increment,
+        basis: match stay && (varies || is_hermite) {
+            true => Basis::Powers,
+            false => Basis::Shapes,
+        },
+        stay,
     }
 }
 

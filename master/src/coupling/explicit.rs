@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use super::columns::{Basis, Columns, Look};
+use super::columns::{Basis, Columns, Look, Measuring};
 use super::condition::{Condition, check_finite};
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
 use super::layout::Over;
@@ -45,7 +45,12 @@ impl Explicit {
         let size = parts.layout.variables();
         let unknowns = Unknowns::ends(&parts.layout);
         let looks = (Ahead::Step, parts.layout.level.up_to());
-        let columns = Columns::new((increment, Basis::Shapes), looks, &parts.layout, &unknowns);
+        let measuring = Measuring {
+            increment,
+            basis: Basis::Shapes,
+            stay: false,
+        };
+        let columns = Columns::new(measuring, looks, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
         Self {
             mu,

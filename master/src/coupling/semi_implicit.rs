@@ -4,7 +4,7 @@ mod errors;
 
 use super::attempts::Attempts;
 use super::automatic_degrees::{AutomaticDegrees, StepDegrees};
-use super::columns::{Basis, Columns, Look, Nodes};
+use super::columns::{Basis, Columns, Look, Measuring, Nodes};
 use super::condition::{Condition, check_finite};
 use super::corrector::{Again, Corrector, Missed};
 use super::degree_choice::Purpose;
@@ -20,7 +20,6 @@ use super::unknowns::Unknowns;
 use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
 use crate::results::Verdict;
-use crate::scene::Increment;
 use crate::signal::{Curve, History, Lagrange};
 use crate::time::MacroStep;
 
@@ -62,10 +61,10 @@ pub struct SemiImplicit {
 }
 
 impl SemiImplicit {
-    /// The method with coupling variables `history` up to the first macro point; inputs are raised in the curves of `basis`.
+    /// The method with coupling variables `history` up to the first macro point.
     pub fn new(
         condition: Condition,
-        (increment, basis): (Increment, Basis),
+        measuring: Measuring,
         mut history: History,
         mut automatic: Option<AutomaticDegrees>,
         parts: &Parts,
@@ -77,11 +76,11 @@ impl SemiImplicit {
         let zeros = || vec![0.0; size];
         let unknowns = Unknowns::ends(&parts.layout);
         let looks = (Ahead::Step, parts.layout.level.up_to());
-        let columns = Columns::new((increment, basis), looks, &parts.layout, &unknowns);
+        let columns = Columns::new(measuring, looks, &parts.layout, &unknowns);
         let system = System::new(&parts.layout, unknowns);
         Self {
             condition,
-            basis,
+            basis: measuring.basis,
             before: history.clone(),
             history,
             rows: parts.layout.rows.len(),

@@ -16,6 +16,7 @@ use crate::joint::Level;
 pub struct Kept {
     /// Those that stay, the last used first.
     settled: Vec<Measured>,
+    stay: bool,
     /// Those of the present macro step, if `is_pending`.
     pending: Measured,
     is_pending: bool,
@@ -90,10 +91,11 @@ impl Measured {
 const MOST_KINDS: usize = 32;
 
 impl Kept {
-    /// For the frames and outputs of `layout`, of which those on `levels` count.
-    pub fn new(layout: &Layout, levels: &'static [Level]) -> Self {
+    /// For the frames and outputs of `layout`, of which those on `levels` count; responses `stay` in use after their macro step, or not.
+    pub fn new(layout: &Layout, levels: &'static [Level], stay: bool) -> Self {
         Self {
-            settled: Vec::with_capacity(MOST_KINDS),
+            settled: Vec::with_capacity(if stay { MOST_KINDS } else { 0 }),
+            stay,
             pending: Measured {
                 attitudes: vec![UnitQuaternion::identity(); layout.frames.len()],
                 ..Measured::default()
@@ -151,6 +153,10 @@ impl Kept {
     /// The macro step is done: its responses stay.
     pub fn settle(&mut self) {
         self.last.set(self.kind.length, self.kind.nodes());
+        if !self.stay {
+            self.is_pending = false;
+            return;
+        }
         let place = self.settled.iter().position(|one| one.kind == self.kind);
         if std::mem::take(&mut self.is_pending) {
             let place = place.unwrap_or_else(|| {

@@ -139,9 +139,10 @@ impl Part {
     }
 
     fn share(self) -> f64 {
-        match self.changed {
-            0.0 => 0.0,
-            changed => changed / self.size,
+        match (self.changed, self.changed / self.size) {
+            (0.0, _) => 0.0,
+            (_, share) if share.is_nan() => f64::INFINITY,
+            (_, share) => share,
         }
     }
 }
@@ -244,4 +245,139 @@ impl Block {
 
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
     values.map(|value| value * value).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Position, velocity and acceleration under `lambda = s`, of a mass, of a mass-less damper and of a mass-less spring.
+    fn mass(m: f64) -> impl Fn(f64) -> [f64; 3] {
+        move |h| [h * h / (6.0 * m), h / (2.0 * m), 1.0 / m]
+    }
+
+    fn damper(d: f64) -> impl Fn(f64) -> [f64; 3] {
+        move |h| [h / (2.0 * d), 1.0 / d, 1.0 / (d * h)]
+    }
+
+    /// The acceleration is that under `lambda = s^2`: under `s` it is 0.
+    fn spring(c: f64) -> impl Fn(f64) -> [f64; 3] {
+        move |h| [1.0 / c, 1.0 / (c * h), 2.0 / (c * h * h)]
+    }
+
+    /// A mass on a damper, `m v' + d v = s`.
+    fn damped_mass(m: f64, d: f64) -> impl Fn(f64) -> [f64; 3] {
+        move |h| {
+            let z = d * h / m;
+            let v = (1.0 - (1.0 - (-z).exp()) / z) / d;
+            let x = h * (0.5 - 1.0 / z + (1.0 - (-z).exp()) / (z * z)) / d;
+            [x, v, (1.0 - d * v) / m]
+        }
+    }
+
+    fn found(response: impl Fn(f64) -> [f64; 3], lengths: &[f64], h: f64) -> (Vec<f64>, [f64; 3]) {
+        let measured: Vec<[f64; 3]> = lengths.iter().map(|&length| response(length)).collect();
+        let mut found = Vec::new();
+        let parts = interpolate(lengths, h, |number| &measured[number], &POWERS, &mut found);
+        (found, parts.map(Part::share))
+    }
+
+    fn off(found: &[f64], exact: [f64; 3]) -> [f64; 3] {
+        [0, 1, 2].map(|level| (found[level] / exact[level] - 1.0).abs())
+    }
+
+    #[test]
+    fn where_one_of_inertia_damping_and_stiffness_rules_any_length_is_found() {
+        for h in [7e-5, 1.3e-3, 0.04] {
+            let lengths = [1e-3, 2.3e-3, 7e-4];
+            let (masses, _) = found(mass(1.7), &lengths, h);
+            assert!(
+                off(&masses, mass(1.7)(h)).iter().all(|off| *off < 1e-9),
+                "{masses:?}"
+            );
+            let (dampers, _) = found(damper(31.0), &lengths, h);
+            assert!(
+                off(&dampers, damper(31.0)(h)).iter().all(|off| *off < 1e-9),
+                "{dampers:?}"
+            );
+            let (springs, _) = found(spring(2e4), &lengths, h);
+            assert!(
+                off(&springs, spring(2e4)(h)).iter().all(|off| *off < 1e-9),
+                "{springs:?}"
+            );
+        }
+    }
+
+    /// The error falls with the cube of the distances, what the farthest length changes with the square; the one is below the other.
+    #[test]
+    fn a_damped_mass_is_found_between_and_beyond_its_lengths() {
+        for h in [1e-5, 1e-4, 1e-3, 1e-2] {
+            let response = damped_mass(4.0, 3.5e5);
+            for share in [0.8, 1.3] {
+                let of = |distance: f64| {
+                    let lengths = [0, 1, 2]
+                        .map(|place: i32| h * share * (-distance * f64::from(place)).exp());
+                    let (found, changed) = found(&response, &lengths, h);
+                    (off(&found, response(h)), changed)
+                };
+                let (near, near_changed) = of(0.1);
+                let (far, far_changed) = of(0.4);
+                for level in 0..3 {
+                    let context = format!(
+                        "{h} {share} {level}: {far:?} {near:?} {far_changed:?} {near_changed:?}"
+                    );
+                    assert!(near[level] < 5e-3 && far[level] < 0.05, "{context}");
+                    assert!(near[level] <= near_changed[level] + 1e-12, "{context}");
+                    assert!(near[level] < 0.7 * far[level] + 1e-9, "{context}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_changes_its_sign_cannot_be_told() {
+        let (_, changed) = found(|h| [h - 2.0, 0.0, 0.0], &[1.9, 2.2, 1.5], 2.1);
+        assert!(changed[0] > MOST_CHANGED, "{changed:?}");
+        assert_eq!(changed[1..], [0.0, 0.0]);
+        let (_, changed) = found(
+            |h| [if h > 1.0 { 1.0 } else { 0.0 }, 0.0, 0.0],
+            &[1.1, 0.9],
+            1.0,
+        );
+        assert_eq!(changed[0], f64::INFINITY);
+    }
+
+    #[test]
+    fn one_length_more_is_needed_than_is_known() {
+        let mut found = vec![1.0];
+        let parts = interpolate(&[1.0, 2.0], 1.5, |_| &[], &POWERS, &mut found);
+        assert!(found.is_empty() && parts.iter().all(|part| part.share() == 0.0));
+    }
+
+    proptest! {
+        /// The size and the direction of a vector do not depend on the axes.
+        #[test]
+        fn turned_responses_are_found_turned(
+            vectors in proptest::array::uniform3(proptest::array::uniform2(0.1f64..3.0)),
+            angle in 0f64..6.0,
+            h in 0.5f64..3.0,
+        ) {
+            let lengths = [1.0, 1.4, 0.8];
+            let (sin, cos) = angle.sin_cos();
+            let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+            let find = |vectors: [[f64; 2]; 3]| {
+                let mut found = Vec::new();
+                let parts = interpolate(&lengths, h, |number| &vectors[number], &[2, 2], &mut found);
+                ([found[0], found[1]], parts[0].share())
+            };
+            let (plain, share) = find(vectors);
+            let (turned, turned_share) = find(vectors.map(turn));
+            prop_assume!(share.is_finite() && share < 10.0);
+            let expected = turn(plain);
+            let size = plain[0].hypot(plain[1]);
+            prop_assert!((turned[0] - expected[0]).hypot(turned[1] - expected[1]) < 1e-6 * size);
+            prop_assert!((share - turned_share).abs() < 1e-6 * share.max(1.0));
+        }
+    }
 }

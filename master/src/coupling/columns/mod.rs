@@ -53,6 +53,17 @@ pub struct Columns {
     length: f64,
 }
 
+/// How responses are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measuring {
+    /// How much inputs are raised.
+    pub increment: Increment,
+    /// In which curves.
+    pub basis: Basis,
+    /// Whether responses stay in use after their macro step.
+    pub stay: bool,
+}
+
 /// In which curves inputs are raised.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Basis {
@@ -97,13 +108,18 @@ impl Columns {
     /// The columns of the driven inputs of `layout` over a look-ahead, one for each shape of an input; the conditions are made of outputs on
     /// `levels`.
     pub fn new(
-        (rule, basis): (Increment, Basis),
+        measuring: Measuring,
         (ahead, levels): (Ahead, &'static [Level]),
         layout: &Layout,
         unknowns: &Unknowns,
     ) -> Self {
+        let Measuring {
+            increment,
+            basis,
+            stay,
+        } = measuring;
         let mut own = Self {
-            rule,
+            rule: increment,
             ahead,
             basis,
             columns: Vec::new(),
@@ -116,7 +132,7 @@ impl Columns {
             responses: Vec::new(),
             positions: positions_of(layout),
             are_fresh: false,
-            kept: Kept::new(layout, levels),
+            kept: Kept::new(layout, levels, stay),
             length: 0.0,
         };
         for (number, input) in layout.inputs.iter().enumerate() {

@@ -32,7 +32,7 @@ mod stack;
 mod variant;
 
 use super::attempts::Attempts;
-use super::columns::{Basis, Columns, Look, Nodes};
+use super::columns::{Columns, Look, Measuring, Nodes};
 use super::condition::{SingularRow, check_finite};
 use super::corrector::Corrector;
 use super::error_estimate::{ErrorScales, Estimate};
@@ -48,7 +48,6 @@ use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::results::Verdict;
-use crate::scene::Increment;
 use crate::signal::{Curves, History};
 use crate::time::MacroStep;
 
@@ -108,13 +107,13 @@ struct Linear {
 
 impl Linear {
     fn new(
-        increment: Increment,
+        measuring: Measuring,
         looks: (Ahead, &'static [Level]),
         parts: &Parts,
         unknowns: Unknowns,
     ) -> Self {
         Self {
-            columns: Columns::new((increment, Basis::Powers), looks, &parts.layout, &unknowns),
+            columns: Columns::new(measuring, looks, &parts.layout, &unknowns),
             system: System::new(&parts.layout, unknowns),
         }
     }
@@ -133,20 +132,20 @@ impl Linear {
 
 impl Hermite {
     /// The method from the first macro point, at which the outputs are known and `history` holds all variables.
-    pub fn new(variant: Variant, increment: Increment, history: History, parts: &Parts) -> Self {
+    pub fn new(variant: Variant, measuring: Measuring, history: History, parts: &Parts) -> Self {
         let layout = &parts.layout;
         let size = layout.variables();
         let unknowns = unknowns_of(layout, variant);
         let mut arcs = Arcs::new(layout, variant, unknowns.clone(), history);
         start_motion(&mut arcs, parts);
         let looks = (Ahead::Now, &[Level::Acceleration][..]);
-        let start = Linear::new(increment, looks, parts, Unknowns::ends(layout));
+        let start = Linear::new(measuring, looks, parts, Unknowns::ends(layout));
         let start_solver = LinearSolver::new(start.system.pattern());
         let sample = Sample::new(&unknowns, size);
         let settled = Sample::new(&unknowns, size);
         let change = vec![0.0; unknowns.len()];
         let looks = (Ahead::Step, levels_of(variant, layout));
-        let end = Linear::new(increment, looks, parts, unknowns);
+        let end = Linear::new(measuring, looks, parts, unknowns);
         let stack = Stack::new(layout, variant, &end.system, &start.system);
         Self {
             variant,
