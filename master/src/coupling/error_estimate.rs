@@ -73,7 +73,7 @@ impl Estimate {
 }
 
 /// What error of a step is allowed of each quantity that the coupling watches: the absolute tolerance and the relative one times the
-/// largest size so far, both divided by one more than the path so far in sizes.
+/// largest size so far, both divided by one more than the path so far in sizes; but not less than the tolerance that the subsystem's solver reports.
 ///
 /// Errors of the phase add up along the path: with `tolerance / (1 + path)` for each piece of it, an oscillation that goes on collects `tolerance
 /// ln(1 + path)`, whatever its frequency.
@@ -85,6 +85,8 @@ pub struct ErrorScales {
     absolute: f64,
     span: f64,
     sizes: Vec<Size>,
+    /// For each subsystem the error that its solver allows itself: less cannot be told.
+    solvers: Vec<f64>,
     /// For each subsystem and coupling output what it belongs to, if it is watched.
     watched: Vec<Vec<Option<Watched>>>,
 }
@@ -116,6 +118,11 @@ impl ErrorScales {
             absolute: control.absolute_tolerance,
             span,
             sizes: Vec::new(),
+            solvers: parts
+                .subsystems
+                .iter()
+                .map(|subsystem| subsystem.tolerance.unwrap_or_default())
+                .collect(),
             watched: watched.collect(),
         };
         for joint in &layout.joints {
@@ -196,13 +203,14 @@ impl ErrorScales {
 
     /// The error that is allowed of a coupling output.
     pub fn allowed_of_output(&self, subsystem: usize, output: usize) -> f64 {
-        match self.watched[subsystem][output] {
+        let allowed = match self.watched[subsystem][output] {
             Some(watched) => {
                 let Size { largest, path, .. } = self.sizes[watched.size];
                 (self.absolute + self.relative * largest) / (1.0 + path)
             }
             None => self.absolute,
-        }
+        };
+        allowed.max(self.solvers[subsystem])
     }
 
     /// How far a joint may be open in one row: as far as its markers may be off.

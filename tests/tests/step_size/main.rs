@@ -8,5 +8,6 @@ mod degrees;
 mod failures;
 mod hard_scenes;
 mod jump;
+mod mechanisms;
 mod mistakes;
 mod traces;
