@@ -51,6 +51,8 @@ pub(crate) struct Renewal {
     left_by_first: Option<f64>,
     /// Whether the columns at hand belong to the look-ahead over the present step.
     are_fresh: bool,
+    /// Whether the present step was predicted without a past.
+    is_blind: bool,
     /// Whether the last look-ahead, over the following step, was asked for columns.
     come_next: bool,
     /// Share of the columns for it that may be wrong because they were measured over other lengths; `None` if it brings new ones.
@@ -97,6 +99,7 @@ impl Renewal {
             rate: None,
             left_by_first: None,
             are_fresh: true,
+            is_blind: false,
             come_next: true,
             off_by_length: None,
             is_slow: false,
@@ -146,6 +149,7 @@ impl Renewal {
         let continues = method.accept();
         let change = method.last_change();
         self.are_fresh = self.come_next;
+        self.is_blind = method.is_blind();
         self.last = change;
         self.passes = Passes {
             with_columns: self.are_fresh,
@@ -167,7 +171,10 @@ impl Renewal {
                 self.passes.is_unconverged = is_open && self.passes.count == iterations.most;
                 is_open && self.passes.count < iterations.most
             }
-            None => self.leaves_too_much() && self.passes.count < MOST_PASSES,
+            None => {
+                let is_blind = self.is_blind && self.passes.count == 0;
+                is_blind || self.leaves_too_much() && self.passes.count < MOST_PASSES
+            }
         };
         let needs_columns = self.rate.is_some_and(|rate| rate > TOO_SLOW) || self.is_out_of_reach();
         is_wanted.then_some(needs_columns)
@@ -252,8 +259,10 @@ impl Renewal {
         }
         let missed = method.learn(parts, self.are_fresh);
         let is_noise = self.listen(missed);
-        if !self.are_fresh {
-            self.note_missed(missed, is_noise);
+        match self.are_fresh {
+            // What new columns leave says nothing of how they serve in later steps.
+            true => (self.rate, self.left_by_first) = (None, None),
+            false => self.note_missed(missed, is_noise),
         }
         self.passes
     }

@@ -76,6 +76,9 @@ pub(crate) trait Again {
     /// and shape of the step before.
     fn accept(&mut self) -> bool;
 
+    /// Whether the step was predicted without a past: its correction is large, and what one linearisation leaves of it counts.
+    fn is_blind(&self) -> bool;
+
     /// Size of the last correction.
     fn last_change(&self) -> Change;
 

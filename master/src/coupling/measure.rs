@@ -100,6 +100,13 @@ impl Measure {
         }
     }
 
+    /// What changed in the last step is not what changes usually.
+    pub fn forget(&mut self) {
+        for group in &mut self.groups {
+            group.past = 0.0;
+        }
+    }
+
     /// The macro step is taken.
     pub fn move_on(&mut self) {
         for group in &mut self.groups {

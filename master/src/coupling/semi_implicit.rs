@@ -289,6 +289,11 @@ impl Again for SemiImplicit {
         self.continues
     }
 
+    /// At the start the corrections are S1's.
+    fn is_blind(&self) -> bool {
+        false
+    }
+
     fn last_change(&self) -> Change {
         self.measure.of(&self.change, &self.corrected)
     }

@@ -22,6 +22,10 @@ impl Again for Hermite {
         self.continues
     }
 
+    fn is_blind(&self) -> bool {
+        !self.arcs.has_past()
+    }
+
     fn last_change(&self) -> Change {
         self.measure.of(&self.changes, self.sample.ends())
     }

@@ -168,6 +168,11 @@ impl Arcs {
         self.attitudes.clone_from(&other.attitudes);
     }
 
+    /// Whether there was a step before.
+    pub fn has_past(&self) -> bool {
+        self.has_past
+    }
+
     /// What the difference between corrected and predicted values tells of the multipliers.
     pub fn load_error(&self) -> ErrorShares {
         match self.has_past {

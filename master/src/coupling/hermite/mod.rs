@@ -316,6 +316,7 @@ impl Corrector for Hermite {
     }
 
     fn move_on(&mut self, _step: MacroStep) {
+        let was_blind = !self.arcs.has_past();
         self.attempts.move_on();
         self.start.columns.settle();
         self.end.columns.settle();
@@ -326,6 +327,9 @@ impl Corrector for Hermite {
         self.before.copy_from(&self.arcs);
         self.arcs.move_on(self.sample.ends(), &self.accelerations);
         self.measure.move_on();
+        if was_blind {
+            self.measure.forget();
+        }
         self.read_starts();
     }
 
