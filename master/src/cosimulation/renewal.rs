@@ -29,7 +29,7 @@ const MOST_PASSES: u32 = 8;
 /// After so many macro steps of one length that needed passes with columns of other lengths it gets its own.
 const MOST_BORROWED: u32 = 3;
 
-/// What columns of an earlier step may leave of a correction where steps vary: the error of such a step is a tenth of a correction and more.
+/// What columns of an earlier step may leave of a correction where steps vary: the error of such a step is a thirtieth of a correction and more.
 const MOST_LEFT_OF_VARIABLE_STEPS: f64 = 3e-3;
 
 /// Watches how well corrections converge with the columns at hand.
