@@ -2,9 +2,9 @@
 
 use super::degree::{self, Degrees};
 use super::error_kind::{Names, SceneErrorKind};
-use super::formula::{Formula, Unit};
+use super::formula::{Formula, Steps, Unit};
 use super::index::Weights;
-use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Section};
+use super::reader::{Field, POSITIVE, Problems, Section};
 use super::resolved::{
     Coupling, Degree, Increment, Iterations, Jacobian, Loads, Method, Order, Otherwise, Spring,
     Variant,
@@ -348,13 +348,13 @@ fn read_method(
                 .map_err(|kind| field.report(kind, problems));
             Some(Method::Explicit { mu: mu.ok()? })
         }
-        Kind::Penalty => read_penalty(section, problems),
+        Kind::Penalty => read_penalty(section, steps?, problems),
         Kind::Jacobi => {
-            let Spring { stiffness, damping } = read_spring(section, LINEAR, problems)?;
+            let Spring { stiffness, damping } = read_spring(section, LINEAR, steps?, problems)?;
             Some(Method::Jacobi { stiffness, damping })
         }
         Kind::GaussSeidel => {
-            let Spring { stiffness, damping } = read_spring(section, LINEAR, problems)?;
+            let Spring { stiffness, damping } = read_spring(section, LINEAR, steps?, problems)?;
             Some(Method::GaussSeidel { stiffness, damping })
         }
     }
@@ -362,7 +362,11 @@ fn read_method(
 
 /// Springs for lengths and for angles. At least one is needed; which one the joints need is known when the models have
 /// described their markers.
-fn read_penalty(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Method> {
+fn read_penalty(
+    section: &Section<'_>,
+    steps: Steps,
+    problems: &mut Problems<'_>,
+) -> Option<Method> {
     let order = section
         .get("order")
         .map_or(Some(Order::Jacobi), |field| field.choice(&ORDERS, problems));
@@ -370,11 +374,11 @@ fn read_penalty(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Me
         section.get(stiffness).is_some() || section.get(damping).is_some()
     };
     let angles = match has(ANGULAR) {
-        true => read_spring(section, ANGULAR, problems).map(Some),
+        true => read_spring(section, ANGULAR, steps, problems).map(Some),
         false => Some(None),
     };
     let lengths = match has(LINEAR) || !has(ANGULAR) {
-        true => read_spring(section, LINEAR, problems).map(Some),
+        true => read_spring(section, LINEAR, steps, problems).map(Some),
         false => Some(None),
     };
     Some(Method::Penalty {
@@ -398,14 +402,21 @@ const ANGULAR: SpringKeys = (
 fn read_spring(
     section: &Section<'_>,
     (stiffness, example, damping): SpringKeys,
+    steps: Steps,
     problems: &mut Problems<'_>,
 ) -> Option<Spring> {
     let stiffness = section
         .require(stiffness, example, problems)
-        .and_then(|field| field.number(&POSITIVE, problems));
-    let damping = section
-        .get(damping)
-        .map_or(Some(0.0), |field| field.number(&NOT_NEGATIVE, problems));
+        .and_then(|field| {
+            let formula = Formula::read_positive(&field, Unit::PerTimeSquared, problems)?;
+            let value = formula.fixed(steps, &field.key);
+            value.map_err(|kind| field.report(kind, problems)).ok()
+        });
+    let damping = section.get(damping).map_or(Some(0.0), |field| {
+        let formula = Formula::read(&field, Unit::PerTime, problems)?;
+        let value = formula.fixed(steps, &field.key);
+        value.map_err(|kind| field.report(kind, problems)).ok()
+    });
     Some(Spring {
         stiffness: stiffness?,
         damping: damping?,

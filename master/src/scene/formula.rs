@@ -1,11 +1,11 @@
-//! Numbers that may be given as a multiple of the macro step, such as `"2H"` or `"0.5 H^2"`.
+//! Numbers that may be given as a multiple of the macro step, such as `"2H"` or `"0.5 H^2"`, or of its inverse, such as `"2.5/H^2"`.
 
 use std::fmt;
 
 use serde::{Serialize, Serializer};
 
 use super::error_kind::SceneErrorKind;
-use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems};
+use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Range};
 use super::written::Value;
 
 /// The power of H that fits the unit of a quantity.
@@ -17,6 +17,10 @@ pub(crate) enum Unit {
     Time,
     /// s^2: multiples of H^2.
     TimeSquared,
+    /// kg/s, kg m^2/s: a mass or moment of inertia over H.
+    PerTime,
+    /// kg/s^2, kg m^2/s^2: the same over H^2.
+    PerTimeSquared,
 }
 
 impl Unit {
@@ -25,6 +29,8 @@ impl Unit {
             Self::Plain => "",
             Self::Time => "H",
             Self::TimeSquared => "H^2",
+            Self::PerTime => "/H",
+            Self::PerTimeSquared => "/H^2",
         }
     }
 
@@ -34,6 +40,10 @@ impl Unit {
             Self::Time => "a number, or a multiple of the macro step such as \"2H\"",
             Self::TimeSquared => {
                 "a number, or a multiple of the squared macro step such as \"0.5 H^2\""
+            }
+            Self::PerTime => "a number, or a mass over the macro step such as \"1.3/H\"",
+            Self::PerTimeSquared => {
+                "a number, or a mass over the squared macro step such as \"2.5/H^2\""
             }
         }
     }
@@ -66,18 +76,7 @@ impl Formula {
 
     /// Reads a number or a multiple of H; it must not be negative.
     pub(super) fn read(field: &Field<'_>, unit: Unit, problems: &mut Problems<'_>) -> Option<Self> {
-        let Value::Text(text) = &field.node.value else {
-            if is_number(&field.node.value) {
-                let value = field.number(&NOT_NEGATIVE, problems)?;
-                return Some(Self::multiple(value, Unit::Plain));
-            }
-            return field.wrong_type(unit.words(), problems);
-        };
-        match parse_factor(text, unit) {
-            Some(factor) if factor >= 0.0 => Some(Self::multiple(factor, unit)),
-            Some(_) => field.out_of_range(NOT_NEGATIVE.words, problems),
-            None => field.wrong_type(unit.words(), problems),
-        }
+        Self::read_within(field, unit, &NOT_NEGATIVE, problems)
     }
 
     /// Like [`Formula::read`], but zero is out of range.
@@ -86,11 +85,27 @@ impl Formula {
         unit: Unit,
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
-        let formula = Self::read(field, unit, problems)?;
-        if formula.is_zero() {
-            return field.out_of_range(POSITIVE.words, problems);
+        Self::read_within(field, unit, &POSITIVE, problems)
+    }
+
+    fn read_within(
+        field: &Field<'_>,
+        unit: Unit,
+        range: &Range,
+        problems: &mut Problems<'_>,
+    ) -> Option<Self> {
+        let Value::Text(text) = &field.node.value else {
+            if is_number(&field.node.value) {
+                let value = field.number(range, problems)?;
+                return Some(Self::multiple(value, Unit::Plain));
+            }
+            return field.wrong_type(unit.words(), problems);
+        };
+        match parse_factor(text, unit) {
+            Some(factor) if (range.contains)(factor) => Some(Self::multiple(factor, unit)),
+            Some(_) => field.out_of_range(range.words, problems),
+            None => field.wrong_type(unit.words(), problems),
         }
-        Some(formula)
     }
 
     pub(super) fn unit(self) -> Unit {
@@ -117,6 +132,8 @@ impl Formula {
             Unit::Plain => self.factor,
             Unit::Time => self.factor * macro_step,
             Unit::TimeSquared => self.factor * macro_step * macro_step,
+            Unit::PerTime => self.factor / macro_step,
+            Unit::PerTimeSquared => self.factor / (macro_step * macro_step),
         }
     }
 
@@ -130,6 +147,18 @@ impl Formula {
                 self.checked_at(greatest, key)?;
                 Ok(self)
             }
+        }
+    }
+
+    /// The number that it is for the macro step of the whole run.
+    pub(super) fn fixed(self, steps: Steps, key: &str) -> Result<f64, SceneErrorKind> {
+        match steps {
+            Steps::Fixed(macro_step) => self.checked_at(macro_step, key),
+            Steps::Between(..) if !self.follows_steps() => Ok(self.factor),
+            Steps::Between(..) => Err(SceneErrorKind::FormulaOfVariableSteps {
+                key: key.to_owned(),
+                formula: self.to_string(),
+            }),
         }
     }
 
@@ -157,9 +186,7 @@ impl Serialize for Formula {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.unit {
             Unit::Plain => serializer.serialize_f64(self.factor),
-            Unit::Time | Unit::TimeSquared => {
-                serializer.collect_str(&format_args!("{:?} {}", self.factor, self.unit.symbol()))
-            }
+            _ => serializer.collect_str(&format_args!("{:?} {}", self.factor, self.unit.symbol())),
         }
     }
 }

@@ -267,6 +267,16 @@ fn parameters_of_a_method_have_ranges_and_forms() {
             ["\"jacoby\"", "jacobi"],
         ),
         (
+            "method = 'penalty'\nstiffness = '2H'",
+            "stiffness",
+            ["a mass over the squared macro step", "2H"],
+        ),
+        (
+            "method = 'jacobi'\nstiffness = 1\ndamping = '-3/H'",
+            "damping",
+            ["0 or greater", "-3/H"],
+        ),
+        (
             "method = 'jacobi'\nstiffness = 0",
             "stiffness",
             ["greater than 0", "found 0"],

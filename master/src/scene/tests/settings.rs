@@ -173,6 +173,11 @@ fn a_penalty_has_springs_for_lengths_and_for_angles() {
             "order = 'jacobi'\nstiffness = 1\ndamping = 2\nangular_stiffness = 5",
             penalty(Order::Jacobi, spring(1.0, 2.0), spring(5.0, 0.0)),
         ),
+        // Masses over the macro step of 1e-3 s.
+        (
+            "stiffness = '2.5/H^2'\ndamping = '1.5 /H'",
+            penalty(Order::Jacobi, spring(2.5 / (1e-3 * 1e-3), 1.5 / 1e-3), None),
+        ),
     ] {
         assert_eq!(method(&format!("method = 'penalty'\n{settings}")), expected);
     }
