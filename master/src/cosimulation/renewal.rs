@@ -186,7 +186,8 @@ impl Renewal {
         let (Some(iterations), Some(rate)) = (self.iterations, rate) else {
             return false;
         };
-        let left = rate.powi((iterations.most - self.passes.count.min(iterations.most)) as i32);
+        let passes = iterations.most.saturating_sub(self.passes.count);
+        let left = rate.powf(f64::from(passes));
         !self.are_fresh && left * self.last.of_size > iterations.tolerance
     }
 

@@ -81,14 +81,6 @@ impl Basis {
             Self::Powers => SharePolynomial::TERMS,
         }
     }
-
-    /// Whether a shape of an input is made of this curve.
-    fn needs(self, (number, shape): (usize, &SharePolynomial), curve: usize) -> bool {
-        match self {
-            Self::Shapes => curve == number,
-            Self::Powers => shape.coefficients()[curve] != 0.0,
-        }
-    }
 }
 
 /// A look-ahead: what it is asked for.
@@ -144,11 +136,12 @@ impl Columns {
                 own.raised.resize_with(end, || Column::new(input, layout));
             }
             own.raised_of_input.push(first..own.raised.len());
+            // All shapes of an input are needed; which powers these are made of depends on the step.
+            own.needed.resize(own.raised.len(), input.is_perturbed);
             own.of_input.push(numbers);
         }
         own.shapes
             .resize(own.columns.len(), SharePolynomial::default());
-        own.needed.resize(own.raised.len(), false);
         own.responses.resize_with(own.raised.len(), Vec::new);
         own
     }
@@ -163,7 +156,9 @@ impl Columns {
     pub fn request(&mut self, parts: &mut Parts, look: Look<'_>, memory: &mut [f64]) {
         self.are_fresh = look.with_columns;
         self.length = look.raised.length();
-        self.take_shapes(&parts.layout, look.raised);
+        if look.with_columns || self.basis == Basis::Powers {
+            self.take_shapes(&parts.layout, look.raised);
+        }
         self.make_room(parts);
         let mut over = Over {
             curves: look.predicted,
@@ -186,7 +181,9 @@ impl Columns {
 
     /// The shapes of the columns over these curves, and which raised inputs they need.
     fn take_shapes(&mut self, layout: &Layout, curves: &dyn Curves) {
-        self.needed.fill(false);
+        if self.basis == Basis::Powers {
+            self.needed.fill(false);
+        }
         let ranges = self.of_input.iter().zip(&self.raised_of_input);
         for (input, (columns, raised)) in layout.inputs.iter().zip(ranges) {
             if !input.is_perturbed {
@@ -195,8 +192,11 @@ impl Columns {
             let leading = Unknowns::leading(input);
             for (number, column) in columns.clone().enumerate() {
                 let shape = curves.shape(leading, number);
-                for (curve, needed) in self.needed[raised.clone()].iter_mut().enumerate() {
-                    *needed |= self.basis.needs((number, &shape), curve);
+                if self.basis == Basis::Powers {
+                    let needed = self.needed[raised.clone()].iter_mut();
+                    for (needed, coefficient) in needed.zip(shape.coefficients()) {
+                        *needed |= *coefficient != 0.0;
+                    }
                 }
                 self.shapes[column] = shape;
             }
@@ -268,7 +268,9 @@ impl Columns {
         (length, nodes): (f64, Nodes<'_>),
         curves: &dyn Curves,
     ) -> Option<f64> {
-        self.take_shapes(layout, curves);
+        if self.basis == Basis::Powers {
+            self.take_shapes(layout, curves);
+        }
         let needed = (&self.raised_of_input[..], &self.needed[..]);
         self.kept.prepare(layout, (length, nodes), needed)
     }
