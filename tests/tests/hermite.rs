@@ -101,3 +101,42 @@ fn directional_derivatives_replace_perturbed_steps() {
         }
     }
 }
+
+/// Under the load `s^j` an undamped spring brings the mass to `x_j` with the acceleration `a_j`; of a free mass `x_j` is `a_j H^2 / ((j + 1)(j + 2))`.
+#[test]
+fn a_macro_step_that_passes_by_a_spring_is_told() {
+    let (m, h) = (0.7_f64, 1e-3_f64);
+    let unresolved = |c: f64, method: &str| {
+        let settings = [
+            format!("subsystem.mass1.parameters.c={c:e}"),
+            format!("subsystem.mass1.parameters.m={m}"),
+            "subsystem.*.parameters.d=0".to_owned(),
+            "scene.t_end=0.02".to_owned(),
+        ];
+        let settings = settings.each_ref().map(String::as_str);
+        let scene = oscillator_with(&format!("method={method} macro_step={h:e}"), &settings);
+        let statistics = run(&scene, Place::InProcess).statistics;
+        [0, 1].map(|subsystem: usize| statistics.subsystems[subsystem].unresolved)
+    };
+    let expected = |c: f64| {
+        let phi = (c / m).sqrt() * h;
+        let (sin, cos) = phi.sin_cos();
+        let free = [sin / phi, 2.0 * (1.0 - cos) / (phi * phi)];
+        let levers = free.iter().zip([6.0, 12.0]);
+        let ratios = levers.map(|(free, lever)| lever * (1.0 - free) / (phi * phi * free.abs()));
+        ratios.fold(1.0, |worst: f64, ratio| worst.max(ratio).max(1.0 / ratio))
+    };
+    for c in [4e7, 2.2e7] {
+        let [stiff, soft] = unresolved(c, "hermite");
+        let (found, expected) = (stiff.unwrap(), expected(c));
+        assert!(
+            (found / expected - 1.0).abs() < 1e-5,
+            "{c:e}: {found} {expected}"
+        );
+        assert_eq!(soft, None);
+    }
+    // A quarter of a period.
+    assert_eq!(unresolved(1.7e6, "hermite"), [None; 2]);
+    // Without accelerations nothing is known.
+    assert_eq!(unresolved(4e7, "hermite variant=c0pv"), [None; 2]);
+}

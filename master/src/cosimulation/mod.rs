@@ -226,8 +226,8 @@ impl CoSimulation {
     pub fn statistics(&self) -> Statistics {
         let mut statistics = self.statistics.clone();
         statistics.steps = self.step_size.as_ref().and_then(StepSize::statistics);
-        for subsystem in &self.parts.subsystems {
-            statistics.add_subsystem(subsystem);
+        for (number, subsystem) in self.parts.subsystems.iter().enumerate() {
+            statistics.add_subsystem(subsystem, self.scheme.unresolved(number));
         }
         statistics
     }
@@ -332,6 +332,14 @@ impl Scheme {
         match self {
             Self::Corrected(method) => method.multipliers(),
             Self::Uncorrected(method) => method.multipliers(),
+        }
+    }
+
+    /// By what factor the responses of a subsystem to loads differed most from those of inertia, if no macro step resolves that.
+    fn unresolved(&self, subsystem: usize) -> Option<f64> {
+        match self {
+            Self::Corrected(method) => method.resolution().unresolved(subsystem),
+            Self::Uncorrected(_) => None,
         }
     }
 

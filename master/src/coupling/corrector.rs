@@ -1,6 +1,7 @@
 //! What a predictor/corrector method does in a macro step; in which order is told by the co-simulation.
 
 use super::automatic_degrees::StepDegrees;
+use super::columns::Resolution;
 use super::degree_choice::Purpose;
 use super::error_estimate::{ErrorScales, Estimate};
 use crate::cosimulation::Parts;
@@ -61,6 +62,9 @@ pub(crate) trait Corrector: Again + Send {
 
     /// Writes the multipliers at `tau` after the start of the last step, `length` long, that [`Corrector::move_on`] took.
     fn multipliers_at(&self, tau: f64, length: f64, multipliers: &mut [f64]);
+
+    /// How well the macro steps have resolved the responses to loads.
+    fn resolution(&self) -> &Resolution;
 
     /// How well the outputs after the advance meet what their linearisation promised.
     fn judge(&mut self, parts: &Parts) -> Verdict;

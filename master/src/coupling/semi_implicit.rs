@@ -4,7 +4,7 @@ mod errors;
 
 use super::attempts::Attempts;
 use super::automatic_degrees::{AutomaticDegrees, StepDegrees};
-use super::columns::{Basis, Columns, Look, Measuring, Nodes};
+use super::columns::{Basis, Columns, Look, Measuring, Nodes, Resolution};
 use super::condition::{Condition, check_finite};
 use super::corrector::{Again, Corrector, Missed};
 use super::degree_choice::Purpose;
@@ -255,6 +255,10 @@ impl Corrector for SemiImplicit {
         for (row, multiplier) in multipliers.iter_mut().enumerate() {
             *multiplier = self.before.value(row, curve, length, tau);
         }
+    }
+
+    fn resolution(&self) -> &Resolution {
+        self.columns.resolution()
     }
 
     fn judge(&mut self, parts: &Parts) -> Verdict {

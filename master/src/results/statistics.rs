@@ -188,6 +188,9 @@ pub struct SubsystemStatistics {
     pub solver_steps: u64,
     /// Time in its solver in s.
     pub time_in_solver: f64,
+    /// By what factor its responses to loads over a macro step differed most from those of inertia alone, if that is so much that the step does
+    /// not resolve its springs and dampers.
+    pub unresolved: Option<f64>,
 }
 
 impl Statistics {
@@ -234,7 +237,7 @@ impl Statistics {
         }
     }
 
-    pub(crate) fn add_subsystem(&mut self, subsystem: &Subsystem) {
+    pub(crate) fn add_subsystem(&mut self, subsystem: &Subsystem, unresolved: Option<f64>) {
         let work = &subsystem.work;
         let own = SubsystemStatistics {
             subsystem: subsystem.name().to_owned(),
@@ -244,6 +247,7 @@ impl Statistics {
             integrations_by_cause: subsystem.asked,
             solver_steps: work.steps,
             time_in_solver: work.nanoseconds as f64 * 1e-9,
+            unresolved,
         };
         self.exchanges += own.exchanges;
         self.integrations += own.integrations;

@@ -55,6 +55,15 @@ impl SharePolynomial {
         terms.fold(0.0, |sum, (power, c)| sum * s + power as f64 * c)
     }
 
+    /// The mean over the step weighted by `1 - s`: how far a free body moves under a load of this shape, relative to `H^2` times its acceleration
+    /// under a unit load.
+    pub fn lever(&self) -> f64 {
+        let terms = self.0.iter().enumerate();
+        terms
+            .map(|(power, c)| c / ((power + 1) * (power + 2)) as f64)
+            .sum()
+    }
+
     /// Adds `factor` times another one.
     pub fn add(&mut self, factor: f64, other: &Self) {
         for (own, other) in self.0.iter_mut().zip(other.0) {

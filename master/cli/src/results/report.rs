@@ -175,6 +175,10 @@ impl RunReport {
                 subsystem.subsystem, subsystem.route, subsystem.time_in_solver
             )?;
         }
+        // Steps that vary follow the error, whatever they resolve.
+        if statistics.steps.is_none() {
+            write_unresolved(statistics, text)?;
+        }
         let around = self.wall_time - statistics.time_total;
         let exchanging = statistics.time_total - statistics.time_solving;
         write!(
@@ -183,6 +187,21 @@ impl RunReport {
             statistics.time_solving
         )
     }
+}
+
+/// Subsystems with springs or dampers that act within a macro step.
+fn write_unresolved(statistics: &Statistics, text: &mut String) -> std::fmt::Result {
+    for subsystem in &statistics.subsystems {
+        if let Some(factor) = subsystem.unresolved {
+            writeln!(
+                text,
+                "  not resolved {:<20} its responses over a macro step are off those of inertia by a factor of {factor:.1e} (aliasing): \
+                 choose a smaller coupling.macro_step, or coupling.tolerance",
+                subsystem.subsystem
+            )?;
+        }
+    }
+    Ok(())
 }
 
 /// What the integrations were for, and how often the corrector had to work twice.

@@ -3,12 +3,14 @@
 //! * [`column`]: the response to one raised input, and how much it is raised;
 //! * [`kept`]: responses of earlier macro steps that stay in use;
 //! * [`axes`]: responses that turn with the bodies;
-//! * [`lengths`]: responses over one length, from those that were measured over others.
+//! * [`lengths`]: responses over one length, from those that were measured over others;
+//! * [`resolution`]: whether the macro step resolves the responses.
 
 mod axes;
 mod column;
 mod kept;
 mod lengths;
+mod resolution;
 
 use std::ops::Range;
 
@@ -22,6 +24,7 @@ use crate::signal::{Curves, SharePolynomial};
 pub use column::Column;
 use kept::Kept;
 pub use kept::Nodes;
+pub use resolution::Resolution;
 
 /// The columns of all driven inputs, one for each shape of an input.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,6 +52,7 @@ pub struct Columns {
     /// Whether the last look-ahead was asked for responses that were not taken yet.
     are_fresh: bool,
     kept: Kept,
+    resolution: Resolution,
     /// Length of the look-ahead in s.
     length: f64,
 }
@@ -79,6 +83,14 @@ impl Basis {
         match self {
             Self::Shapes => shapes,
             Self::Powers => SharePolynomial::TERMS,
+        }
+    }
+
+    /// One of these curves, for an input with these shapes.
+    fn curve(self, shapes: &[SharePolynomial], number: usize) -> SharePolynomial {
+        match self {
+            Self::Shapes => shapes[number],
+            Self::Powers => SharePolynomial::power(number),
         }
     }
 }
@@ -125,6 +137,7 @@ impl Columns {
             positions: positions_of(layout),
             are_fresh: false,
             kept: Kept::new(layout, levels, stay),
+            resolution: Resolution::new(layout),
             length: 0.0,
         };
         for (number, input) in layout.inputs.iter().enumerate() {
@@ -149,6 +162,11 @@ impl Columns {
     /// The columns in the order of the inputs; those of inputs that are not perturbed are empty.
     pub fn all(&self) -> &[Column] {
         &self.columns
+    }
+
+    /// How well the macro steps have resolved the responses.
+    pub fn resolution(&self) -> &Resolution {
+        &self.resolution
     }
 
     /// Fills in the look-ahead that was prepared: the predicted curve of every input, and for each perturbed one the curves
@@ -237,16 +255,13 @@ impl Columns {
         over: &mut Over<'_>,
     ) {
         let gives_derivatives = subsystem.gives_derivatives(self.rule);
-        let first = self.of_input[number].start;
+        let shapes = &self.shapes[self.of_input[number].clone()];
         let raised = &mut self.raised[self.raised_of_input[number].clone()];
         for (curve, raised) in raised.iter_mut().enumerate() {
             let Some(place) = raised.place else {
                 continue;
             };
-            let shape = match self.basis {
-                Basis::Shapes => self.shapes[first + curve],
-                Basis::Powers => SharePolynomial::power(curve),
-            };
+            let shape = self.basis.curve(shapes, curve);
             if gives_derivatives {
                 let signal = subsystem.direction_signal(self.ahead, place, input.place);
                 input.direction(over, &shape, signal);
@@ -308,24 +323,48 @@ impl Columns {
     }
 
     fn take_responses(&mut self, parts: &Parts) {
-        for (input, own) in parts.layout.inputs.iter().zip(&self.raised_of_input) {
+        self.resolution.begin();
+        for (number, input) in parts.layout.inputs.iter().enumerate() {
             let subsystem = &parts.subsystems[input.subsystem];
-            let (predicted, perturbed) = subsystem.looked(self.ahead);
-            let responses = self.responses[own.clone()].iter_mut();
-            for (raised, response) in self.raised[own.clone()].iter_mut().zip(responses) {
-                response.clear();
-                let Some(place) = raised.place else {
-                    continue;
-                };
-                if subsystem.gives_derivatives(self.rule) {
-                    let derivatives = &subsystem.derivatives(self.ahead)[place].values;
-                    raised.derivatives.clone_from(derivatives);
-                } else {
-                    raised.difference(predicted, &perturbed[place].values);
+            for (curve, place) in self.raised_of_input[number].clone().enumerate() {
+                self.responses[place].clear();
+                if let Some(asked) = self.raised[place].place {
+                    self.take_response(subsystem, asked, (input.subsystem, place));
+                    self.judge_response(input.subsystem, (number, curve), place);
                 }
-                raised.note_response(&self.positions[input.subsystem], self.length);
-                response.clone_from(&raised.derivatives);
             }
+        }
+        self.resolution.judge();
+    }
+
+    /// Takes answer number `asked` of a subsystem.
+    fn take_response(
+        &mut self,
+        subsystem: &Subsystem,
+        asked: usize,
+        (number, place): (usize, usize),
+    ) {
+        let raised = &mut self.raised[place];
+        if subsystem.gives_derivatives(self.rule) {
+            let derivatives = &subsystem.derivatives(self.ahead)[asked].values;
+            raised.derivatives.clone_from(derivatives);
+        } else {
+            let (predicted, perturbed) = subsystem.looked(self.ahead);
+            raised.difference(predicted, &perturbed[asked].values);
+        }
+        raised.note_response(&self.positions[number], self.length);
+        self.responses[place].clone_from(&raised.derivatives);
+    }
+
+    fn judge_response(&mut self, subsystem: usize, (input, curve): (usize, usize), place: usize) {
+        // A constant part of a polynomial acts from the start: the acceleration at the end of the step is none of its conditions.
+        let is_part = self.basis == Basis::Powers && curve == 0 && self.needed[place + 1];
+        if self.raised[place].is_load && !is_part {
+            let shapes = &self.shapes[self.of_input[input].clone()];
+            let shape = self.basis.curve(shapes, curve);
+            let response = &self.responses[place];
+            self.resolution
+                .take(subsystem, (curve, &shape), self.length, response);
         }
     }
 

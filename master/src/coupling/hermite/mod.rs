@@ -32,7 +32,7 @@ mod stack;
 mod variant;
 
 use super::attempts::Attempts;
-use super::columns::{Columns, Look, Measuring, Nodes};
+use super::columns::{Columns, Look, Measuring, Nodes, Resolution};
 use super::condition::{SingularRow, check_finite};
 use super::corrector::Corrector;
 use super::error_estimate::{ErrorScales, Estimate};
@@ -337,6 +337,10 @@ impl Corrector for Hermite {
         for (row, multiplier) in multipliers.iter_mut().enumerate() {
             *multiplier = self.before.value(row, tau);
         }
+    }
+
+    fn resolution(&self) -> &Resolution {
+        self.end.columns.resolution()
     }
 
     fn judge(&mut self, parts: &Parts) -> Verdict {

@@ -68,7 +68,13 @@ impl BoundEnd {
 
     /// Places of the coordinates on position level.
     pub fn coordinates(&self) -> &[usize] {
-        self.levels.first().map_or(&[], |places| &places.position)
+        self.translation(Level::Position)
+    }
+
+    /// Places of the coordinates, their velocities or accelerations.
+    pub fn translation(&self, level: Level) -> &[usize] {
+        let places = self.levels.get(level as usize);
+        places.map_or(&[], |places| &places.position)
     }
 
     /// The motion that the outputs of the subsystem tell.
