@@ -9,6 +9,7 @@ mod mechanism;
 mod obstacle;
 mod panels;
 mod penalty;
+mod pieces;
 mod recovery;
 mod refusal;
 mod renewal;

@@ -1,8 +1,10 @@
 //! Exchanges where macro steps vary: a failure that a shorter step may cure does not end the run.
 //!
 //! A request that fails leaves its worker as it was (contract). So a look-ahead is simply repeated; and where the look-ahead beside an
-//! advance fails, the workers that refused are asked for the advance alone: then all of them stand at the same macro point again.
+//! advance fails, the workers that refused are asked for the advance alone, and where they refuse that as well for its pieces: then all of them stand
+//! at the same macro point again.
 
+use super::pieces::{advance_in_pieces, is_refusal};
 use super::subsystem::{Answered, Subsystem};
 use crate::error::RunError;
 use crate::time::MacroStep;
@@ -52,8 +54,15 @@ pub(super) fn advance(
         subsystems[number].request.predict = None;
         subsystems[number].post(step)?;
     }
+    let mut refused_again = Vec::new();
     for &number in &left_behind {
-        subsystems[number].collect(step)?;
+        match subsystems[number].collect(step) {
+            Err(error) if is_refusal(&error) => refused_again.push(number),
+            collected => collected?,
+        }
+    }
+    for number in refused_again {
+        advance_in_pieces(&mut subsystems[number], step)?;
     }
     Ok(refusal)
 }

@@ -6,7 +6,7 @@ use linchpin_master::scene::Scene;
 use linchpin_proto::v1::Failure;
 use linchpin_tests::errors::closed_form;
 use linchpin_tests::scenes::{oscillator, oscillator_with};
-use linchpin_worker::scripted::Act;
+use linchpin_worker::scripted::{Act, Scripted};
 use linchpin_worker::{Inputs, Interval};
 
 use crate::brittle::{Ended, Fate, Judge, Way, run_brittle, run_scripted};
@@ -35,7 +35,7 @@ fn too_long(interval: Interval) -> bool {
 }
 
 /// The pull on the mass changes by too much within one step. Only passes look ahead with the inputs that the advance has; without them an
-/// advance may fail that was not foreseen, which ends the run.
+/// advance may fail that was not foreseen, and is taken in pieces.
 fn pulled_too_much(interval: Interval, inputs: &Inputs) -> bool {
     let pull = |tau| inputs.value(0, tau);
     (pull(interval.length) - pull(0.0)).abs() > 70.0
@@ -83,7 +83,8 @@ fn largest_error(scene: &Scene, ended: &Ended) -> f64 {
 fn a_step_that_a_worker_cannot_take_is_repeated_and_leaves_no_trace() {
     for (name, judge) in JUDGES {
         for coupling in METHODS {
-            if name == BY_INPUT && !coupling.contains("iterations") {
+            // Of degree 2 the multipliers jump by as much over the shortest steps after some that were refused.
+            if name == BY_INPUT && coupling.contains("degree=2") {
                 continue;
             }
             let scene = variable(coupling);
@@ -99,6 +100,10 @@ fn a_step_that_a_worker_cannot_take_is_repeated_and_leaves_no_trace() {
             for way in WAYS {
                 let own = run_brittle(&scene, judge, way, &Options::default()).unwrap();
                 assert!(own.bits() == found.bits(), "{way:?} {context}");
+            }
+            if name == BY_INPUT && !coupling.contains("iterations") {
+                // Advances in pieces are part of what steps that vary may meet.
+                continue;
             }
             let options = Options {
                 step_lengths: Some(found.steps.clone()),
@@ -216,13 +221,40 @@ fn an_advance_stays_valid_when_the_look_ahead_beside_it_fails() {
     assert!((share - 0.25).abs() < 1e-6, "{share}");
 }
 
-/// Other workers have advanced already, so a worker that cannot is an end.
+/// Other workers have advanced already, so the worker takes the step in halves: the oscillator's exact solver ends where it would have ended.
 #[test]
-fn an_advance_that_fails_stops_the_run() {
+fn an_advance_that_fails_is_taken_in_pieces() {
+    let failure = || Failure::recoverable(0.0, 0.0, "Newton did not converge");
+    let failed_at = |exchanges: &'static [u64]| {
+        let run = run_scripted(&gentle(), |peer| {
+            let at = |peer: Scripted, exchange: &u64| {
+                peer.at_exchange(FUSED + exchange, Act::Fail(failure()))
+            };
+            exchanges.iter().fold(peer, at)
+        });
+        run.unwrap()
+    };
+    let whole = failed_at(&[0]);
+    // In two halves; in quarters after the first half was refused; after the second one was.
+    for exchanges in [&[0, 1][..], &[0, 1, 2], &[0, 1, 3]] {
+        let own = failed_at(exchanges);
+        assert_eq!(own.steps[..8], whole.steps[..8], "{exchanges:?}");
+        let same = FUSED as usize;
+        assert_eq!(own.bits()[..same], whole.bits()[..same]);
+        for (found, expected) in own.rows[same].iter().zip(&whole.rows[same]) {
+            let off = (found - expected).abs() / expected.abs().max(1e-3);
+            assert!(off < 1e-9, "{exchanges:?}: {found} {expected}");
+        }
+    }
+}
+
+/// A worker that does not take any piece is an end.
+#[test]
+fn an_advance_that_no_piece_brings_forward_stops_the_run() {
     let failure = || Failure::recoverable(0.0, 0.0, "Newton did not converge");
     let stopped = run_scripted(&gentle(), |peer| {
-        let peer = peer.at_exchange(FUSED, Act::Fail(failure()));
-        peer.at_exchange(FUSED + 1, Act::Fail(failure()))
+        let at = |peer: Scripted, exchange| peer.at_exchange(exchange, Act::Fail(failure()));
+        (FUSED..FUSED + 20).fold(peer, at)
     });
     let error = stopped.err().unwrap();
     assert!(matches!(error, RunError::Worker { .. }), "{error}");

@@ -13,7 +13,7 @@ pub(crate) enum Answered {
     Whole,
     /// The advance was done; the look-ahead came to nothing, but over a shorter step it may not.
     Advanced(RunError),
-    /// Nothing was done, because of the look-ahead or of the advance; over a shorter step the look-ahead may be.
+    /// Nothing was done, because of the look-ahead or of the advance; over a shorter step it may be.
     Refused(RunError),
 }
 
@@ -22,9 +22,7 @@ impl Subsystem {
     pub(crate) fn collect_advance(&mut self, step: MacroStep) -> Result<Answered, RunError> {
         let may_be_repeated = |error: &RunError| error.may_vanish_with_a_shorter_step();
         match self.receive(step) {
-            Err(error) if self.request.predict.is_some() && may_be_repeated(&error) => {
-                return Ok(Answered::Refused(error));
-            }
+            Err(error) if may_be_repeated(&error) => return Ok(Answered::Refused(error)),
             received => received?,
         }
         self.take_advanced(step)?;
