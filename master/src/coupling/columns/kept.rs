@@ -191,26 +191,28 @@ impl Kept {
         self.is_pending = true;
     }
 
-    /// Writes the responses of the kind in use, turned to the attitudes of these coupling outputs; `of_input` are those of each input.
+    /// Writes the responses of the kind in use, turned to the attitudes of these coupling outputs; `of_input` are those of each input. Gives
+    /// whether there are any.
     pub fn carry<'a>(
         &self,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64],
         of_input: &[Range<usize>],
         responses: &mut [Vec<f64>],
-    ) {
+    ) -> bool {
         let measured = match (self.is_pending, self.is_between) {
             (true, _) => Some(&self.pending),
             (false, true) => Some(self.between.found()),
             (false, false) => self.settled.iter().find(|one| one.kind == self.kind),
         };
         let Some(measured) = measured else {
-            return;
+            return false;
         };
         for (response, measured) in responses.iter_mut().zip(&measured.responses) {
             response.clone_from(measured);
         }
         let now = |_: usize, frame: &_| attitude_of(frame, outputs(frame.subsystem));
         turn(layout, &measured.attitudes, now, of_input, responses);
+        true
     }
 }

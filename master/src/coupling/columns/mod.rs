@@ -1,10 +1,10 @@
 //! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
 //!
-//! * [`column`]: the response to one raised input, and how much it is raised;
-//! * [`kept`]: responses of earlier macro steps that stay in use;
-//! * [`axes`]: responses that turn with the bodies;
-//! * [`lengths`]: responses over one length, from those that were measured over others;
-//! * [`resolution`]: whether the macro step resolves the responses.
+//! * `column`: the response to one raised input, and how much it is raised;
+//! * `kept`: responses of earlier macro steps that stay in use;
+//! * `axes`: responses that turn with the bodies;
+//! * `lengths`: responses over one length, from those that were measured over others;
+//! * `resolution`: whether the macro step resolves the responses.
 
 mod axes;
 mod column;
@@ -45,7 +45,7 @@ pub struct Columns {
     raised_of_subsystem: Vec<usize>,
     /// Which ones a step needs.
     needed: Vec<bool>,
-    /// The responses to them in the present step.
+    /// The responses to them, as they were last measured or carried along.
     responses: Vec<Vec<f64>>,
     /// Places of the markers' positions in the coupling outputs of each subsystem.
     positions: Vec<Vec<usize>>,
@@ -316,8 +316,12 @@ impl Columns {
             self.kept.keep(&parts.layout, looked, &self.responses);
         } else {
             let own = &self.raised_of_input;
-            self.kept
+            let carried = self
+                .kept
                 .carry(&parts.layout, looked, own, &mut self.responses);
+            if !carried {
+                return;
+            }
         }
         self.combine();
     }
@@ -353,7 +357,7 @@ impl Columns {
             raised.difference(predicted, &perturbed[asked].values);
         }
         raised.note_response(&self.positions[number], self.length);
-        self.responses[place].clone_from(&raised.derivatives);
+        std::mem::swap(&mut self.responses[place], &mut raised.derivatives);
     }
 
     fn judge_response(&mut self, subsystem: usize, (input, curve): (usize, usize), place: usize) {
@@ -371,11 +375,11 @@ impl Columns {
     /// The columns from the responses in the present step.
     fn combine(&mut self) {
         for (columns, raised) in self.of_input.iter().zip(&self.raised_of_input) {
-            let responses = &self.responses[raised.clone()];
+            let responses = &mut self.responses[raised.clone()];
             for (number, column) in columns.clone().enumerate() {
                 let derivatives = &mut self.columns[column].derivatives;
                 match self.basis {
-                    Basis::Shapes => derivatives.clone_from(&responses[number]),
+                    Basis::Shapes => std::mem::swap(derivatives, &mut responses[number]),
                     Basis::Powers => {
                         let coefficients = self.shapes[column].coefficients();
                         add_up(responses.iter().zip(coefficients), derivatives);
