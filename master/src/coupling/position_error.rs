@@ -7,9 +7,6 @@ use crate::cosimulation::Parts;
 use crate::joint::Level;
 use crate::time::MacroStep;
 
-/// Share of the allowed opening that a joint may have at the start of a step and still has to be closed in it.
-const MOST_KEPT_OPEN: f64 = 0.5;
-
 /// A correction that was solved for, as far as its error is concerned.
 #[derive(Clone, Copy)]
 pub struct Correction<'a> {
@@ -59,8 +56,8 @@ impl PositionErrors {
         }
     }
 
-    /// Adds the openings of the joints at the end of the step. A joint that is open by more than half of what is allowed at the start of the step
-    /// need not be closed more than to that: no shorter step would do it.
+    /// Adds the openings of the joints at the end of the step. A joint that earlier steps left open by more than what is allowed must not open
+    /// further, but no step need close it at once, however short: joints close at a rate per step.
     pub fn add_openings(
         &mut self,
         parts: &Parts,
@@ -78,7 +75,7 @@ impl PositionErrors {
             for (condition, (row, (predicted, shift))) in rows {
                 let before = if condition.is_length() { length } else { angle };
                 let allowed = scales.allowed_of_opening(&parts.layout, row);
-                let inherited = (before - MOST_KEPT_OPEN * allowed).max(0.0);
+                let inherited = (before - allowed).max(0.0);
                 let scaled = ((predicted + shift).abs() - inherited) / allowed;
                 estimate.add(scaled, correction.order, Suspect::Opening(row));
             }

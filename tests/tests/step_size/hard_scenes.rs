@@ -246,6 +246,21 @@ fn a_load_that_sets_in_at_once() {
     LOAD_STEP.check(&METHODS, 2.0);
 }
 
+/// Every step of a swing that drives the joint open in one direction is allowed as much as any other; all together too.
+#[test]
+fn a_joint_does_not_open_step_by_step() {
+    let own = HEAVY_END.run("method=weighted degree=1", 1e-8);
+    for direction in ["x", "y"] {
+        let openings = own
+            .trajectory
+            .column(&format!("hinge.residual.position.{direction}"));
+        let largest = openings
+            .iter()
+            .fold(0.0, |most: f64, at| most.max(at.abs()));
+        assert!(largest < 1e-8, "{}: {largest:e}", own.context);
+    }
+}
+
 /// The step is short where the load sets in, after few attempts, and as long as before soon after.
 #[test]
 fn steps_grow_again_after_a_jump() {
