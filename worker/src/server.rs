@@ -166,8 +166,14 @@ impl Server {
                     .max_encoding_message_size(MESSAGE_LIMIT),
             );
         let (stop, stopped) = tokio::sync::oneshot::channel();
+        let address = &self.address;
         let shutdown = async move {
             shutdown.await;
+            // While it still listens the file is its own; later a successor may have put its own there.
+            if let Address::Unix(path) = address {
+                // A file that is gone already is what we want.
+                let _ = std::fs::remove_file(path);
+            }
             // Nobody listens if serving has ended by itself.
             let _ = stop.send(());
         };
@@ -175,10 +181,6 @@ impl Server {
             served = run(router, self.listener, shutdown) => served,
             () = overdue(stopped) => Ok(()),
         };
-        if let Address::Unix(path) = &self.address {
-            // A file that is gone already is what we want.
-            let _ = std::fs::remove_file(path);
-        }
         served.map_err(|source| ServeError {
             address: self.address,
             source,

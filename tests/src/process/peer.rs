@@ -1,6 +1,7 @@
 //! A worker inside the test process.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 
 use linchpin_models::models;
@@ -27,7 +28,10 @@ impl Peer {
 
     /// Serves `contract`.
     pub fn serve(workshop: &Workshop, contract: Arc<dyn Contract>) -> Self {
-        let address = Address::Unix(workshop.path().join("peer.sock"));
+        // One that ends late keeps its address.
+        static SERVED: AtomicUsize = AtomicUsize::new(0);
+        let number = SERVED.fetch_add(1, Ordering::Relaxed);
+        let address = Address::Unix(workshop.path().join(format!("peer{number}.sock")));
         let (stop, stopped) = oneshot::channel();
         let (listening, is_listening) = channel();
         // Not waited for at the end: a peer that plays a hanging worker ends late.

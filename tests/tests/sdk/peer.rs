@@ -1,5 +1,6 @@
 //! A worker as its master reaches it.
 
+use std::os::unix::net::UnixStream;
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::Duration;
@@ -67,12 +68,24 @@ pub struct Served {
     pub address: String,
     stop: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<()>>,
-    _folder: TempDir,
+    folder: Arc<TempDir>,
 }
 
 impl Served {
     pub fn start(contract: Arc<dyn Contract>) -> Self {
-        let folder = tempfile::tempdir().unwrap();
+        Self::start_in(Arc::new(tempfile::tempdir().unwrap()), contract)
+    }
+
+    /// A server at the same address, as soon as this one has given it up after [`Served::stop`].
+    pub fn successor(&self, contract: Arc<dyn Contract>) -> Self {
+        let socket = self.address.trim_start_matches("unix:");
+        while UnixStream::connect(socket).is_ok() {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        Self::start_in(Arc::clone(&self.folder), contract)
+    }
+
+    fn start_in(folder: Arc<TempDir>, contract: Arc<dyn Contract>) -> Self {
         let socket = Address::Unix(folder.path().join("worker.sock"));
         let address = socket.to_string();
         let (stop, stopped) = oneshot::channel();
@@ -91,7 +104,7 @@ impl Served {
             address,
             stop: Some(stop),
             thread: Some(thread),
-            _folder: folder,
+            folder,
         }
     }
 

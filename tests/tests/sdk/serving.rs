@@ -137,6 +137,19 @@ fn shutdown_does_not_wait_for_an_open_stream() {
     assert!(matches!(error, CallError::Lost { .. }), "{error:?}");
 }
 
+/// As when a worker is restarted while the old one still waits for its master.
+#[test]
+fn a_worker_that_ends_leaves_the_socket_of_its_successor() {
+    let mut served = Served::start(host());
+    let remote = std::sync::Arc::new(Remote::connect(&served.address));
+    let mut driver = Driver::initialize(remote, &tank(5));
+    driver.exchange(None, None).unwrap();
+    served.stop();
+    let successor = served.successor(host());
+    served.wait();
+    grpc(&successor.address).initialize(&tank(5)).unwrap();
+}
+
 #[test]
 fn shutdown_lets_a_call_under_way_finish() {
     let mut served = Served::start(host());
