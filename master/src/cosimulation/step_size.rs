@@ -155,17 +155,6 @@ impl StepSize {
         next: &Estimate,
         parts: &Parts,
     ) -> Result<(), Obstacle> {
-        if std::env::var("DBG").is_ok() {
-            eprintln!(
-                "t {:.5e} H {:.3e} scaled {:.3e} order {} {} change {:.3e}",
-                step.start,
-                step.length,
-                estimate.scaled,
-                estimate.order,
-                estimate.suspect_name(parts),
-                estimate.change
-            );
-        }
         if self.purpose(estimate) != Purpose::Repetition {
             return Ok(());
         }

@@ -1,4 +1,5 @@
-//! Variable macro steps on the shipped mechanisms: the tolerance is met from their first step on, and columns that stay in use save integrations.
+//! Variable macro steps on the shipped mechanisms: the tolerance is met from their first step on, and columns that stay in use save integrations
+//! where steps are many.
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;

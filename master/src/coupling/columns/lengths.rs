@@ -43,8 +43,8 @@ pub struct Between {
 }
 
 impl Between {
-    /// For the outputs of `layout`, of which those on `levels` count. Those that no joint reads are taken for positions: whatever their power, the inverse is a polynomial of
-    /// degree 2 at most.
+    /// For the outputs of `layout`, of which those on `levels` count. Those that no joint reads are taken for positions: whatever their power, the
+    /// inverse is a polynomial of degree 2 at most.
     pub fn new(layout: &Layout, levels: &'static [Level]) -> Self {
         let outputs = layout.outputs.iter();
         let mut powers: Vec<Vec<i32>> = outputs.map(|own| vec![POWERS[0]; own.len()]).collect();
