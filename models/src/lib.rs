@@ -5,6 +5,7 @@
 //! * [`spatial_body`]: a free rigid body in space;
 //! * [`dc_motor`], [`pi_controller`]: an electric drive, by signals and by its shaft;
 //! * [`multibody`]: systems of bodies with joints of their own, as a scene composes them;
+//! * [`nonsmooth`]: impacts and friction, rigid and flexible;
 //! * [`integrators`]: time integration that several models share;
 //! * [`mod@reference`]: solutions that coupled runs are compared with.
 
@@ -14,6 +15,7 @@ pub mod dc_motor;
 pub mod integrators;
 mod mechanics;
 pub mod multibody;
+pub mod nonsmooth;
 pub mod oscillator;
 pub mod pendulum;
 pub mod pi_controller;

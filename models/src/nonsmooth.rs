@@ -1,0 +1,23 @@
+//! Nonsmooth mechanics: impacts and Coulomb friction, rigid and flexible, by mixed timestepping on velocity level.
+//!
+//! Source: S2, that is Rezaei & Schindler, "Mixed timestepping schemes for nonsmooth mechanics with high frequency damping".
+//!
+//! * [`mixed`]: the algorithm, one step from top to bottom (Fig. 4);
+//! * [`schemes`]: what advances a step without impacts, a file each; [`stages`]: their implicit equations;
+//! * [`activity`], [`impact`], [`start`]: which contacts take part, the impulsive correction, accelerations at an instant;
+//! * [`contact`]: the contact problem and its solvers;
+//! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and counters;
+//! * [`state`]: plain values between steps; [`matrix`]: matrices with a border and a band.
+
+pub mod activity;
+pub mod contact;
+pub mod impact;
+pub mod matrix;
+pub mod mechanics;
+pub mod mixed;
+pub mod schemes;
+pub mod stages;
+pub mod start;
+pub mod state;
+pub mod system;
+pub mod systems;

@@ -1,0 +1,163 @@
+//! The nonsmooth Gauss-Newton iteration of S2 eqs. (42) to (45) and (51) to (54).
+
+use super::least_norm::LeastNorm;
+use super::problem::{Law, Problem};
+use super::solve::{Jacobian, Weights};
+use crate::nonsmooth::matrix::{dense_factor, dense_solve};
+
+/// Iterations after which it is given up: the pattern of active contacts cycles. Where it converges, it takes 1 to 5.
+const MOST_ITERATIONS: usize = 25;
+/// A pivot below this share of the largest means dependent rows: then the step is the one of least norm.
+const DEPENDENT: f64 = 1e-11;
+
+/// Room for the iteration.
+#[derive(Debug, Clone, Default)]
+pub struct GaussNewton {
+    gradient: Vec<f64>,
+    kept: Vec<f64>,
+    pivots: Vec<usize>,
+    step: Vec<f64>,
+    least_norm: LeastNorm,
+}
+
+impl GaussNewton {
+    /// Improves `x` until the residual (m/s) is at most `tolerance` times the scale of the problem; the iterations that
+    /// it took, or `None` if it does not get there.
+    pub fn solve(
+        &mut self,
+        problem: &Problem,
+        jacobian: Jacobian,
+        weights: Weights,
+        tolerance: f64,
+        x: &mut [f64],
+    ) -> Option<usize> {
+        let n = problem.len();
+        for iteration in 0..=MOST_ITERATIONS {
+            if problem.residual(x) <= tolerance * problem.scale(x) {
+                return Some(iteration);
+            }
+            self.assemble(problem, jacobian, weights, x);
+            if !self.newton_step(n) {
+                return None;
+            }
+            for (x, step) in x.iter_mut().zip(&self.step) {
+                *x -= step;
+            }
+        }
+        None
+    }
+
+    /// `f` to `step`, its gradient to `gradient`.
+    fn assemble(&mut self, problem: &Problem, jacobian: Jacobian, weights: Weights, x: &[f64]) {
+        let n = problem.len();
+        self.gradient.clear();
+        self.gradient.resize(n * n, 0.0);
+        self.step.clear();
+        self.step.resize(n, 0.0);
+        for row in 0..n {
+            let weight = weights.of(problem.diagonal(row));
+            let [first, second] = problem.defect(row, weight, x);
+            self.step[row] += first;
+            if let Law::Disc { .. } = problem.laws[row] {
+                self.step[row + 1] += second;
+            }
+            self.linearise(problem, jacobian, weight, row, x);
+        }
+    }
+
+    /// Rows of the gradient: `df/dx` of one law.
+    fn linearise(
+        &mut self,
+        problem: &Problem,
+        jacobian: Jacobian,
+        weight: f64,
+        row: usize,
+        x: &[f64],
+    ) {
+        let n = problem.len();
+        let own = &mut self.gradient[row * n..];
+        let target = |row: usize| x[row] - weight * problem.velocity(row, x);
+        let closed = |own: &mut [f64], row: usize| {
+            for (own, g) in own.iter_mut().zip(problem.row(row)) {
+                *own = weight * g;
+            }
+        };
+        match problem.laws[row] {
+            Law::Equality => closed(own, row),
+            Law::Normal if target(row) >= 0.0 => closed(own, row),
+            Law::Normal => own[row] = 1.0,
+            Law::Friction {
+                normal,
+                coefficient,
+            } => {
+                let target = target(row);
+                if target.abs() <= coefficient * x[normal].abs() {
+                    closed(own, row);
+                } else {
+                    own[row] = 1.0;
+                    if jacobian == Jacobian::Full {
+                        own[normal] -= target.signum() * coefficient * sign(x[normal]);
+                    }
+                }
+            }
+            Law::Disc {
+                normal,
+                coefficient,
+            } => {
+                let target = [target(row), target(row + 1)];
+                let size = target[0].hypot(target[1]);
+                let radius = coefficient * x[normal].abs();
+                if size <= radius {
+                    closed(own, row);
+                    closed(&mut own[n..], row + 1);
+                    return;
+                }
+                let direction = target.map(|component| component / size);
+                for i in 0..2 {
+                    let own = &mut own[i * n..][..n];
+                    own[row + i] = 1.0;
+                    if jacobian == Jacobian::Full {
+                        own[normal] -= direction[i] * coefficient * sign(x[normal]);
+                    }
+                    // The projection turns with its target.
+                    for j in 0..2 {
+                        let turn = f64::from(u8::from(i == j)) - direction[i] * direction[j];
+                        let share = radius / size * turn;
+                        own[row + j] -= share;
+                        for (own, g) in own.iter_mut().zip(problem.row(row + j)) {
+                            *own += share * weight * g;
+                        }
+                    }
+                }
+            }
+            Law::Second => {}
+            Law::Sliding { normal, factor } => {
+                own[row] = 1.0;
+                own[normal] -= factor * sign(x[normal]);
+            }
+        }
+    }
+
+    /// `step` becomes `pinv(gradient) step`; whether it is finite.
+    fn newton_step(&mut self, n: usize) -> bool {
+        self.kept.clear();
+        self.kept.extend_from_slice(&self.gradient);
+        self.pivots.resize(n, 0);
+        let is_regular = dense_factor(n, &mut self.kept, &mut self.pivots[..n]).is_ok() && {
+            let pivots = || (0..n).map(|k| self.kept[k * (n + 1)].abs());
+            let smallest = pivots().fold(f64::INFINITY, f64::min);
+            smallest > DEPENDENT * pivots().fold(0.0, f64::max)
+        };
+        if is_regular {
+            dense_solve(n, &self.kept, &self.pivots[..n], &mut self.step);
+        } else {
+            self.least_norm.solve(n, &self.gradient, &mut self.step);
+        }
+        self.step.iter().all(|step| step.is_finite())
+    }
+}
+
+/// The derivative of `|x|` that is right for forces that come from above: 1 at 0.
+fn sign(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { 1.0 }
+}

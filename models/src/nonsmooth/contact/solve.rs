@@ -1,0 +1,218 @@
+//! The order in which solvers are tried: what is fast first, what is robust behind it.
+
+use super::enumeration::{Count, Enumeration};
+use super::gauss_newton::GaussNewton;
+use super::gauss_seidel;
+use super::problem::Problem;
+
+/// What the gradient of the Gauss-Newton iteration has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Jacobian {
+    /// All terms, so that it converges in as many steps as patterns of active contacts are tried.
+    Full,
+    /// As printed in S2 eqs. (43) and (52): without the derivative of the friction radius, so it converges linearly.
+    AsPrinted,
+}
+
+/// The auxiliary parameter `r` of the projections.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Weights {
+    /// `r_k = 1/G_kk`: free of units.
+    Automatic,
+    /// The same number for all rows, as S2 has it (0.1 for forces, 0.1 dt for impulses).
+    Fixed(f64),
+}
+
+impl Weights {
+    /// `r` of a row with this `G_kk`.
+    pub fn of(self, diagonal: f64) -> f64 {
+        match self {
+            Self::Automatic => 1.0 / diagonal,
+            Self::Fixed(weight) => weight,
+        }
+    }
+}
+
+/// How contact problems are solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSettings {
+    /// Gradient of the Gauss-Newton iteration.
+    pub jacobian: Jacobian,
+    /// Parameter of the projections.
+    pub weights: Weights,
+    /// Largest residual that is a solution, as a share of the velocities that balance each other. Larger: forces of a step
+    /// are less accurate than its motion; smaller than 1e-14: rounding does not allow it.
+    pub tolerance: f64,
+}
+
+impl Default for ContactSettings {
+    fn default() -> Self {
+        Self {
+            jacobian: Jacobian::Full,
+            weights: Weights::Automatic,
+            tolerance: 1e-13,
+        }
+    }
+}
+
+/// A residual that is taken from a robust solver, as a share of the scale: projections converge linearly.
+const ROBUST_TOLERANCE: f64 = 1e-11;
+
+/// Which solver gave the forces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SolverKind {
+    /// Nonsmooth Gauss-Newton from the forces of the last problem.
+    GaussNewton,
+    /// The same from zero forces, since it failed from the last ones.
+    GaussNewtonRestarted,
+    /// Projections contact by contact.
+    GaussSeidel,
+    /// All contact states in turn.
+    Enumeration,
+}
+
+/// What is told of a problem that was solved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solved {
+    /// The solver that did it.
+    pub solver: SolverKind,
+    /// Its iterations or sweeps.
+    pub iterations: usize,
+    /// Residual in m/s, [`Problem::residual`].
+    pub residual: f64,
+    /// Whether other solutions with other velocities were found (Painleve).
+    pub is_ambiguous: bool,
+}
+
+/// Why there are no forces.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Unsolved {
+    /// No contact state meets all laws.
+    #[error(
+        "the contact problem has no solution: friction is so high that a contact jams (Painleve); an impact without collision, \
+         which is not modelled, would be the way on"
+    )]
+    NoSolution,
+    /// No solver found one.
+    #[error(
+        "no solver of the contact problem got below a residual of {residual:.1e} m/s in {rows} rows"
+    )]
+    NotFound {
+        /// The smallest residual that was reached.
+        residual: f64,
+        /// Size of the problem.
+        rows: usize,
+    },
+    /// A row is not a number.
+    #[error("the contact problem has values that are not finite")]
+    NotFinite,
+}
+
+/// Solvers with their memory.
+#[derive(Debug, Clone, Default)]
+pub struct ContactSolver {
+    gauss_newton: GaussNewton,
+    enumeration: Enumeration,
+    trial: Vec<f64>,
+}
+
+impl ContactSolver {
+    /// Forces `x` of a problem, from those that `x` has at the call (warm start).
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub fn solve(
+        &mut self,
+        problem: &Problem,
+        settings: &ContactSettings,
+        x: &mut [f64],
+    ) -> Result<Solved, Unsolved> {
+        if problem.is_empty() {
+            return Ok(Solved {
+                solver: SolverKind::GaussNewton,
+                iterations: 0,
+                residual: 0.0,
+                is_ambiguous: false,
+            });
+        }
+        let numbers = problem.delassus.iter().chain(&problem.free);
+        if !numbers.clone().all(|number| number.is_finite()) {
+            return Err(Unsolved::NotFinite);
+        }
+        let found = self.find(problem, settings, x);
+        if !problem.may_jam() {
+            return found;
+        }
+        self.look_for_others(problem, found, x)
+    }
+
+    fn find(
+        &mut self,
+        problem: &Problem,
+        settings: &ContactSettings,
+        x: &mut [f64],
+    ) -> Result<Solved, Unsolved> {
+        let solved = |solver, iterations, x: &[f64]| Solved {
+            solver,
+            iterations,
+            residual: problem.residual(x),
+            is_ambiguous: false,
+        };
+        let &ContactSettings {
+            jacobian,
+            weights,
+            tolerance,
+        } = settings;
+        for solver in [SolverKind::GaussNewton, SolverKind::GaussNewtonRestarted] {
+            self.trial.clear();
+            match solver {
+                SolverKind::GaussNewton => self.trial.extend_from_slice(x),
+                _ => self.trial.resize(x.len(), 0.0),
+            }
+            let newton = &mut self.gauss_newton;
+            let taken = newton.solve(problem, jacobian, weights, tolerance, &mut self.trial);
+            if let Some(iterations) = taken {
+                x.copy_from_slice(&self.trial);
+                return Ok(solved(solver, iterations, x));
+            }
+        }
+        self.trial.clear();
+        self.trial.resize(x.len(), 0.0);
+        if let Some(sweeps) = gauss_seidel::solve(problem, ROBUST_TOLERANCE, &mut self.trial) {
+            x.copy_from_slice(&self.trial);
+            return Ok(solved(SolverKind::GaussSeidel, sweeps, x));
+        }
+        let residual = problem.residual(&self.trial);
+        self.trial.fill(f64::NAN);
+        match self.enumeration.solve(problem, &mut self.trial) {
+            Count::None => Err(Unsolved::NoSolution),
+            Count::Unknown => Err(Unsolved::NotFound {
+                residual,
+                rows: problem.len(),
+            }),
+            count => {
+                x.copy_from_slice(&self.trial);
+                Ok(Solved {
+                    is_ambiguous: count == Count::Several,
+                    ..solved(SolverKind::Enumeration, 1, x)
+                })
+            }
+        }
+    }
+
+    fn look_for_others(
+        &mut self,
+        problem: &Problem,
+        found: Result<Solved, Unsolved>,
+        x: &[f64],
+    ) -> Result<Solved, Unsolved> {
+        let solved = found?;
+        self.trial.clear();
+        self.trial.extend_from_slice(x);
+        let count = self.enumeration.solve(problem, &mut self.trial);
+        Ok(Solved {
+            is_ambiguous: count == Count::Several,
+            ..solved
+        })
+    }
+}

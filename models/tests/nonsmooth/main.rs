@@ -1,0 +1,9 @@
+//! Nonsmooth mechanics against golden data, closed forms and theory. Golden data: tests/golden/s2, from an independent
+//! prototype of S2 in another language.
+
+#![allow(clippy::unwrap_used)]
+
+mod golden;
+mod golden_masses;
+mod golden_rigid;
+mod stand;
