@@ -142,15 +142,15 @@ static void block_corner_jacobian(double side, const double *q, double *H)
     H[1] = 1, H[3] = 0, H[5] = -cx * s - cy * c;
 }
 
-#define BLOCK_CONTACT(k, side)    \
-    RELATION(block_gap_##k)       \
-    {                             \
-        (void)n, (void)ny, UNUSED_Z; \
-        block_corner(side, q, y); \
-    }                             \
-    RELATION(block_jacobian_##k)  \
-    {                             \
-        (void)n, (void)ny, UNUSED_Z; \
+#define BLOCK_CONTACT(k, side)             \
+    RELATION(block_gap_##k)                \
+    {                                      \
+        (void)n, (void)ny, UNUSED_Z;       \
+        block_corner(side, q, y);          \
+    }                                      \
+    RELATION(block_jacobian_##k)           \
+    {                                      \
+        (void)n, (void)ny, UNUSED_Z;       \
         block_corner_jacobian(side, q, y); \
     }
 
@@ -253,15 +253,15 @@ static void crank_corner_jacobian(double side, double level, const double *q, do
     H[4] = -level * (cx * c - cy * s), H[5] = -cx * s - cy * c;
 }
 
-#define CRANK_CONTACT(k, side, level) \
-    RELATION(crank_gap_##k)           \
-    {                                 \
-        (void)n, (void)ny, UNUSED_Z;  \
-        crank_corner(side, level, q, y); \
-    }                                 \
-    RELATION(crank_jacobian_##k)      \
-    {                                 \
-        (void)n, (void)ny, UNUSED_Z;  \
+#define CRANK_CONTACT(k, side, level)             \
+    RELATION(crank_gap_##k)                       \
+    {                                             \
+        (void)n, (void)ny, UNUSED_Z;              \
+        crank_corner(side, level, q, y);          \
+    }                                             \
+    RELATION(crank_jacobian_##k)                  \
+    {                                             \
+        (void)n, (void)ny, UNUSED_Z;              \
         crank_corner_jacobian(side, level, q, y); \
     }
 

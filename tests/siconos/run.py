@@ -2,9 +2,9 @@
 """A second opinion on impacts and friction: small mechanisms integrated by Siconos with the Moreau-Jean scheme.
 
 Siconos (Debian: python3-siconos) imports with /usr/bin/python3 only. Equations of motion and contact relations are in
-contact.c, which is compiled when a run starts. One result is written as JSON to the standard output:
+contact.c, which is compiled when a run starts. The result is one JSON object on the standard output:
 
-    scheme             name, theta, solver, tolerance, newton_tolerance, siconos (its version)
+    scheme             name, theta, solver (of contact problems), tolerance, newton_tolerance
     problem, parameters, dt, steps, coordinates
     samples            t, q, v, energy, gaps, forces (per contact: normal and tangential impulse of the step over dt)
     impacts            t, contacts (from 1), before, after (normal velocities), impulses (normal)
@@ -12,15 +12,16 @@ contact.c, which is compiled when a run starts. One result is written as JSON to
     first_impact       t of the first of them, or null
     max_penetration    largest negative gap at the end of a step
     energy_loss        energy at the start less energy at the end
-    solver             calls, failures of the contact solver; newton_failures, newton_iterations; failures: their sum
+    solver             calls and failures of the contact solver, newton_iterations, newton_failures (steps)
     seconds_per_step   time per step spent inside Siconos; recording and output are not in it
 
-A contact takes part in a step that starts with gap + dt/2 * gap velocity <= 0. The time of an impact is the start of its
-step: the time of contact that the scheme assumes is within dt/2 of it. The energy contains the potential of the weight
-and of a constant torque. Units: m, kg, s, rad.
+A contact takes part in a step that starts with gap + dt/2 * gap velocity <= 0. The time of an impact is the start of
+its step: the contact that the scheme foresees is within dt/2 of it. The energy contains the potential of the weight and
+of a constant torque. Units: m, kg, s, rad. The scheme is of first order: compare energies in the limit dt -> 0, and
+impacts above a threshold only, because the end of a series of impacts depends on dt.
 
-Exit code: 0; 1 when a contact problem was not solved or a Newton loop did not converge, the result is written all the
-same; 2 for wrong arguments; 3 when the plugin does not compile or Siconos is not there.
+Exit code: 0; 1 when a contact problem was not solved or a Newton loop did not converge (the result is written all the
+same); 2 for wrong arguments; 3 when the plugin does not compile or Siconos is not there.
 """
 
 import argparse
@@ -115,7 +116,7 @@ PROBLEMS = {
         start_ball,
     ),
     "incline": Problem(
-        "block 2 b x 2 h on a slope (rad), starts with v0 downwards; it tips unless h tan(friction angle) < b",
+        "block 2 b x 2 h on a slope (rad), starts with v0 downwards; mu < b / h, or it tips while it slides",
         "block", ["x", "y", "phi"], 2, "nsgs",
         {"b": 0.11, "h": 0.07, "m": 2.3, "J": 0.0, "g": 9.81, "slope": 0.4, "mu": 0.3, "eps": 0.0, "v0": 0.57},
         start_on_slope,
@@ -213,8 +214,7 @@ class Integration:
             self.contacts.append(contact)
 
         if friction:
-            solvers = {"nsgs": "NSGS", "lemke": "LEMKE", "enum": "ENUM"}
-            number = getattr(numerics, f"SICONOS_FRICTION_2D_{solvers[options.solver]}")
+            number = getattr(numerics, f"SICONOS_FRICTION_2D_{options.solver.upper()}")
             self.impulses = kernel.FrictionContact(2, number)
         else:
             self.impulses = kernel.LCP(numerics.SICONOS_LCP_LEMKE)
@@ -243,8 +243,8 @@ class Integration:
         install(None, ctypes.cast(plugin.library.count_solver_call, ctypes.c_void_p))
 
         self.simulation.initialize()
-        self.simulation.updateOutput()
-        self.simulation.updateIndexSets()  # otherwise a contact that is closed at the start is missed in the first step
+        self.simulation.updateOutput()  # gaps at the start
+        self.simulation.updateIndexSets()  # otherwise the first step misses a contact that is closed at the start
         # Views of the vectors of Siconos, valid from here on.
         self.q, self.v = self.body.q(), self.body.velocity()
         self.gaps = [contact.y(0) for contact in self.contacts]
@@ -364,7 +364,7 @@ def arguments(argv):
     parser.add_argument("--threshold", type=float, default=0.01, help="slowest impact to record, in m/s (0.01)")
     parser.add_argument("--theta", type=positive, default=0.5, help="theta of the Moreau-Jean scheme (0.5)")
     parser.add_argument("--solver", choices=("enum", "lemke", "nsgs"),
-                        help="solver of contact problems with friction (the one that is most reliable for the problem); "
+                        help="solver of contact problems with friction (the most reliable one for the problem); "
                         "without friction always lemke")  # fmt: skip
     parser.add_argument("--tolerance", type=positive, default=1e-12, help="of the contact solver (1e-12)")
     parser.add_argument("--newton-tolerance", type=positive, default=1e-13, help="of a step's residual in N s (1e-13)")
@@ -372,7 +372,7 @@ def arguments(argv):
     parser.add_argument("--json", metavar="OUT", help="write the result to this file, not to the standard output")
     options = parser.parse_args(argv)
 
-    if options.solver is None or options.problem == "ball":
+    if options.solver is None or "mu" not in PROBLEMS[options.problem].defaults:
         options.solver = PROBLEMS[options.problem].solver
     options.steps = round(options.t_end / options.dt)
     if options.steps < 1 or abs(options.steps * options.dt - options.t_end) > 1e-9 * options.t_end:
