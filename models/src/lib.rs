@@ -36,5 +36,7 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(multibody::SpatialMultibody),
         Box::new(dc_motor::DcMotor),
         Box::new(pi_controller::PiController),
+        Box::new(nonsmooth::SliderCrank),
+        Box::new(nonsmooth::MassChain),
     ]
 }

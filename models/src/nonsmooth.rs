@@ -7,6 +7,7 @@
 //! * [`activity`], [`impact`], [`start`]: which contacts take part, the impulsive correction, accelerations at an instant;
 //! * [`contact`]: the contact problem and its solvers;
 //! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and counters;
+//! * [`systems`]: mechanical systems; `subsystem`: any of them behind the worker protocol;
 //! * [`state`]: plain values between steps; [`matrix`]: matrices with a border and a band.
 
 pub mod activity;
@@ -19,5 +20,9 @@ pub mod schemes;
 pub mod stages;
 pub mod start;
 pub mod state;
+mod subsystem;
 pub mod system;
 pub mod systems;
+
+pub use subsystem::masses::MassChain;
+pub use subsystem::slider_crank::SliderCrank;

@@ -114,6 +114,8 @@ impl std::ops::AddAssign for Work {
         self.steps += more.steps;
         self.nanoseconds += more.nanoseconds;
         self.derivatives += more.derivatives;
+        // Counts since the start of the instance: the last ones hold all.
+        self.contacts = more.contacts.or(self.contacts);
     }
 }
 

@@ -117,7 +117,7 @@ impl Instance {
     }
 
     fn plain_step(&mut self, request: &v1::StepRequest) -> Result<v1::StepReply, Failure> {
-        let meter = Meter::start(&self.motion);
+        let mut meter = Meter::start(&self.motion);
         let interval = interval(request.t, request.step)?;
         let mut outputs = v1::Outputs::default();
         self.motion.advance(
@@ -126,6 +126,7 @@ impl Instance {
             request.outputs(),
             &mut outputs.values,
         )?;
+        meter.look_at_contacts(&self.motion);
         self.motion.commit();
         Ok(v1::StepReply {
             outputs: Some(outputs),

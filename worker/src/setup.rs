@@ -243,8 +243,17 @@ impl Setup {
 
     /// An option of the solver that must be positive.
     pub fn positive_option(&self, name: &str) -> Result<f64, SetupError> {
-        let options = Values::options(&self.options);
-        options.number_in(name, "it must be greater than 0", |value| value > 0.0)
+        self.option_in(name, "it must be greater than 0", |value| value > 0.0)
+    }
+
+    /// An option of the solver with a range of its own, told to the user by `allowed`.
+    pub fn option_in(
+        &self,
+        name: &str,
+        allowed: &'static str,
+        is_allowed: impl Fn(f64) -> bool,
+    ) -> Result<f64, SetupError> {
+        Values::options(&self.options).number_in(name, allowed, is_allowed)
     }
 }
 

@@ -105,6 +105,11 @@ pub trait Subsystem: Send {
         0
     }
 
+    /// What its contacts did from the start to the present state, for the statistics; `None` for a solver without contacts.
+    fn contacts(&self) -> Option<v1::Contacts> {
+        None
+    }
+
     /// Error tolerance of the solver in units of its outputs; `None` if it is exact up to rounding.
     fn tolerance(&self) -> Option<f64> {
         None

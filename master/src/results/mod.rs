@@ -10,7 +10,7 @@ pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
 pub use row::{Drawn, Row};
 pub use statistics::{
-    Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics, StepStatistics,
-    SubsystemStatistics,
+    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics,
+    StepStatistics, SubsystemStatistics,
 };
 pub use verdict::{Defect, Verdict};

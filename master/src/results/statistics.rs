@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use linchpin_proto::v1;
 use serde::Serialize;
 
 use super::{Integrations, Row, Verdict};
@@ -191,6 +192,44 @@ pub struct SubsystemStatistics {
     /// By what factor its responses to loads over a macro step differed most from those of inertia alone, if that is so much that the step does
     /// not resolve its springs and dampers.
     pub unresolved: Option<f64>,
+    /// What its contacts did; absent where a solver has none.
+    pub contacts: Option<ContactStatistics>,
+}
+
+/// What the contacts inside a subsystem did.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ContactStatistics {
+    /// Internal steps in which a contact closed anew.
+    pub impacts: u64,
+    /// Time of the first one in s; absent if there was none.
+    pub first_impact: Option<f64>,
+    /// Sum of all normal impulses in N s.
+    pub impulse: f64,
+    /// Deepest penetration in m.
+    pub penetration: f64,
+    /// Largest residual of a contact problem in m/s.
+    pub residual: f64,
+    /// Contact problems.
+    pub problems: u64,
+    /// Of them: solved by a fallback.
+    pub robust: u64,
+    /// Of them: with several solutions.
+    pub ambiguous: u64,
+}
+
+impl From<v1::Contacts> for ContactStatistics {
+    fn from(contacts: v1::Contacts) -> Self {
+        Self {
+            impacts: contacts.impacts,
+            first_impact: contacts.first_impact,
+            impulse: contacts.impulse,
+            penetration: contacts.penetration,
+            residual: contacts.residual,
+            problems: contacts.problems,
+            robust: contacts.robust,
+            ambiguous: contacts.ambiguous,
+        }
+    }
 }
 
 impl Statistics {
@@ -248,6 +287,7 @@ impl Statistics {
             solver_steps: work.steps,
             time_in_solver: work.nanoseconds as f64 * 1e-9,
             unresolved,
+            contacts: work.contacts.map(ContactStatistics::from),
         };
         self.exchanges += own.exchanges;
         self.integrations += own.integrations;

@@ -27,6 +27,45 @@ pub struct ContactLog {
     pub penetration: f64,
 }
 
+impl ContactLog {
+    /// Numbers of a log.
+    pub const NUMBERS: usize = 6;
+
+    /// As plain numbers; no first impact is not a number.
+    fn numbers(&self) -> [f64; Self::NUMBERS] {
+        [
+            self.impacts as f64,
+            self.first_impact.unwrap_or(f64::NAN),
+            self.impulse,
+            self.impact_loss,
+            self.friction_loss,
+            self.penetration,
+        ]
+    }
+
+    fn take(&mut self, numbers: &[f64]) {
+        let &[
+            impacts,
+            first,
+            impulse,
+            impact_loss,
+            friction_loss,
+            penetration,
+        ] = numbers
+        else {
+            return;
+        };
+        *self = Self {
+            impacts: impacts as u64,
+            first_impact: Some(first).filter(|first| !first.is_nan()),
+            impulse,
+            impact_loss,
+            friction_loss,
+            penetration,
+        };
+    }
+}
+
 /// A system with a scheme in motion.
 pub struct Integrator {
     /// The system and what was done.
@@ -148,6 +187,52 @@ impl Integrator {
     pub fn gaps(&mut self) -> &[f64] {
         self.mechanics.system.gaps(&self.state.q, &mut self.gaps);
         &self.gaps
+    }
+
+    /// Accelerations at the present state under `drive`, contacts included; the state stays as it is.
+    ///
+    /// # Errors
+    /// [`StepError`].
+    pub fn accelerations(&mut self, drive: Drive<'_>) -> Result<&[f64], StepError> {
+        self.find_closed();
+        self.next.copy_from(&self.state);
+        let (mechanics, closed) = (&mut self.mechanics, &mut self.closed);
+        accelerate(mechanics, drive, Contacts::Acting, closed, &mut self.next)?;
+        Ok(&self.next.a)
+    }
+
+    /// Hands out all numbers that later steps depend on, in an order that [`Integrator::recall`] takes them back.
+    pub fn memory(&self, mut put: impl FnMut(&[f64])) {
+        for part in self.state.parts() {
+            put(part);
+        }
+        put(&self.log.numbers());
+        put(&[self.friction_power]);
+    }
+
+    /// Takes back the numbers of [`Integrator::memory`]; returns what is behind them.
+    pub fn recall<'a>(&mut self, mut numbers: &'a [f64]) -> &'a [f64] {
+        let mut take = |count: usize| {
+            let (taken, rest) = numbers.split_at(count.min(numbers.len()));
+            numbers = rest;
+            taken
+        };
+        for part in self.state.parts_mut() {
+            let taken = take(part.len());
+            part[..taken.len()].copy_from_slice(taken);
+        }
+        self.log.take(take(ContactLog::NUMBERS));
+        if let [power] = take(1) {
+            self.friction_power = *power;
+        }
+        self.state.tau = 0.0;
+        numbers
+    }
+
+    /// How many numbers [`Integrator::memory`] hands out.
+    pub fn memory_len(&self) -> usize {
+        let state: usize = self.state.parts().iter().map(|part| part.len()).sum();
+        state + ContactLog::NUMBERS + 1
     }
 
     /// The next interval of inputs starts here.

@@ -1,5 +1,7 @@
 //! What an integration scheme knows of a mechanical system.
 
+use std::sync::Arc;
+
 use super::matrix::{BorderedBand, Shape};
 
 /// One contact or constraint of a mechanical system: its laws. Its kinematics are rows of [`MechanicalSystem::directions`].
@@ -95,6 +97,49 @@ pub trait MechanicalSystem: Send {
 
     /// Kinetic and potential energy (J).
     fn energy(&self, q: &[f64], v: &[f64]) -> f64;
+}
+
+impl<S: MechanicalSystem + Sync + ?Sized> MechanicalSystem for Arc<S> {
+    fn shape(&self) -> Shape {
+        (**self).shape()
+    }
+
+    fn contacts(&self) -> &[Contact] {
+        (**self).contacts()
+    }
+
+    fn mass(&self, q: &[f64], mass: &mut BorderedBand) {
+        (**self).mass(q, mass);
+    }
+
+    fn force(&self, at: Instant<'_>, force: &mut [f64]) {
+        (**self).force(at, force);
+    }
+
+    fn tangents(
+        &self,
+        at: Instant<'_>,
+        stiffness: &mut BorderedBand,
+        damping: &mut BorderedBand,
+    ) -> bool {
+        (**self).tangents(at, stiffness, damping)
+    }
+
+    fn gaps(&self, q: &[f64], gaps: &mut [f64]) {
+        (**self).gaps(q, gaps);
+    }
+
+    fn directions(&self, q: &[f64], rows: &mut [f64]) {
+        (**self).directions(q, rows);
+    }
+
+    fn direction_rates(&self, q: &[f64], v: &[f64], rates: &mut [f64]) {
+        (**self).direction_rates(q, v, rates);
+    }
+
+    fn energy(&self, q: &[f64], v: &[f64]) -> f64 {
+        (**self).energy(q, v)
+    }
 }
 
 /// Number of rows of all contacts together.

@@ -51,12 +51,12 @@ impl Instance {
         request: &v1::ExchangeRequest,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), Failure> {
-        let meter = Meter::start(&self.motion);
+        let mut meter = Meter::start(&self.motion);
         reply.sequence = request.sequence;
         reply.failure = None;
         let base = match &request.advance {
             Some(advance) => {
-                self.advance(advance, reply)?;
+                self.advance(advance, &mut meter, reply)?;
                 Base::Advanced
             }
             None => {
@@ -96,6 +96,7 @@ impl Instance {
     fn advance(
         &mut self,
         advance: &v1::Advance,
+        meter: &mut Meter,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), Failure> {
         let interval = interval(advance.t, advance.step)?;
@@ -107,6 +108,7 @@ impl Instance {
             v1::OutputSet::All,
             &mut advanced.values,
         )?;
+        meter.look_at_contacts(&self.motion);
         reply
             .samples
             .resize_with(advance.samples.len(), v1::Outputs::default);

@@ -1,5 +1,7 @@
 //! The report of a run: a summary to read and `run.json` to process.
 
+mod contacts;
+
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -175,6 +177,7 @@ impl RunReport {
                 subsystem.subsystem, subsystem.route, subsystem.time_in_solver
             )?;
         }
+        contacts::write(statistics, text)?;
         // Steps that vary follow the error, whatever they resolve.
         if statistics.steps.is_none() {
             write_unresolved(statistics, text)?;

@@ -11,6 +11,8 @@ pub struct Turn<'a, C> {
     calls: &'a C,
     place: &'a mut Place,
     work: Work,
+    /// Of the committed state: steps that look ahead do not count.
+    contacts: Option<Contacts>,
 }
 
 /// What a look ahead brings.
@@ -27,6 +29,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             calls,
             place,
             work: Work::default(),
+            contacts: None,
         }
     }
 
@@ -43,7 +46,10 @@ impl<'a, C: Contract> Turn<'a, C> {
                 return Err(error);
             }
         }
-        reply.work = Some(self.work);
+        reply.work = Some(Work {
+            contacts: self.contacts,
+            ..self.work
+        });
         Ok(reply)
     }
 
@@ -91,6 +97,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             ..StepRequest::default()
         };
         reply.advanced = self.step_from(start, step(advance.step))?;
+        self.contacts = self.work.contacts;
         let reached = self.snapshot()?;
         self.place.reach(reached);
         for &sample in &advance.samples {

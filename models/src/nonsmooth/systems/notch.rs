@@ -63,6 +63,16 @@ impl Notch {
         std::array::from_fn(|k| height - UPPER[k] * (y + ALONG[k] * self.half_length * sin))
     }
 
+    /// A corner from the centre of the slider, in inertial axes (m).
+    pub fn corner(&self, corner: usize, theta: f64) -> [f64; 2] {
+        let (sin, cos) = theta.sin_cos();
+        let (along, up) = (
+            ALONG[corner] * self.half_length,
+            UPPER[corner] * self.half_height,
+        );
+        [along * cos - up * sin, along * sin + up * cos]
+    }
+
     /// `dg_N/dtheta`; `dg_N/dy` is [`Notch::by_height`].
     pub fn normal_by_angle(&self, theta: f64) -> [f64; CORNERS] {
         let (sin, cos) = theta.sin_cos();

@@ -108,6 +108,11 @@ impl RigidSliderCrank {
         }
     }
 
+    /// Its data.
+    pub fn mechanism(&self) -> &Mechanism {
+        &self.mechanism
+    }
+
     /// `(A, B, C)` of the mass matrix.
     fn inertia(&self) -> [f64; 3] {
         let [l1, l2] = self.mechanism.lengths;

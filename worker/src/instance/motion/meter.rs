@@ -12,6 +12,7 @@ pub(in crate::instance) struct Meter {
     integrations: u64,
     derivatives: u64,
     steps: u64,
+    contacts: Option<v1::Contacts>,
 }
 
 impl Meter {
@@ -21,7 +22,13 @@ impl Meter {
             integrations: motion.integrations,
             derivatives: motion.derivatives,
             steps: motion.subsystem.internal_steps(),
+            contacts: None,
         }
+    }
+
+    /// The state is the one that will be committed.
+    pub(in crate::instance) fn look_at_contacts(&mut self, motion: &Motion) {
+        self.contacts = motion.subsystem.contacts();
     }
 
     pub(in crate::instance) fn stop(self, motion: &Motion) -> v1::Work {
@@ -30,6 +37,7 @@ impl Meter {
             derivatives: motion.derivatives - self.derivatives,
             steps: motion.subsystem.internal_steps() - self.steps,
             nanoseconds: u64::try_from(self.started.elapsed().as_nanos()).unwrap_or(u64::MAX),
+            contacts: self.contacts,
         }
     }
 }

@@ -1,0 +1,15 @@
+//! Mechanical systems as subsystems behind the worker protocol.
+//!
+//! * [`face`]: what a master sees of a system; [`observed`]: the outputs that a system has of its own;
+//! * [`options`]: schemes as solvers of a scene;
+//! * [`run`]: a system in motion: steps, outputs, snapshots, statistics;
+//! * [`keys`], [`model`]: parameters and descriptions; [`slider_crank`], [`masses`]: the models.
+
+pub mod face;
+pub mod keys;
+pub mod masses;
+pub mod model;
+pub mod observed;
+pub mod options;
+pub mod run;
+pub mod slider_crank;

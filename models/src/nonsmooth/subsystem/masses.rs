@@ -1,0 +1,128 @@
+//! The model `mass-chain`: three masses between springs with a stiff end or a constraint (S2 Sect. 2.8).
+
+use std::collections::BTreeMap;
+
+use linchpin_proto::v1;
+use linchpin_worker::setup::SetupError;
+use linchpin_worker::{Model, Setup, Subsystem};
+
+use super::face::{Coordinate, Face};
+use super::keys::{Key, Parameters, absent, number};
+use super::model::{describe, started};
+use super::observed::{Motion, Observed};
+use crate::mechanics::describe::output;
+use crate::nonsmooth::systems::masses::{End, Masses};
+
+/// Three masses in a row.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct MassChain;
+
+const KEYS: &[Key] = &[
+    number("m1", "kg", 1.0, "first mass, greater than 0"),
+    number("m2", "kg", 1.0, "second mass, greater than 0"),
+    number("m3", "kg", 1.0, "third mass, greater than 0"),
+    number(
+        "k1",
+        "N/m",
+        1.0,
+        "spring from the wall to the first mass, 0 or greater",
+    ),
+    number(
+        "k2",
+        "N/m",
+        1.0,
+        "spring between the first and the second mass, 0 or greater",
+    ),
+    number(
+        "k3",
+        "N/m",
+        1.0,
+        "spring between the second and the third mass, 0 or greater",
+    ),
+    absent(
+        "k0",
+        "N/m",
+        "spring from the third mass to the wall, 0 or greater; if absent the mass is held by a constraint",
+    ),
+    number(
+        "gravity",
+        "m/s^2",
+        9.81,
+        "acceleration along all coordinates",
+    ),
+];
+
+impl Model for MassChain {
+    fn describe(&self) -> v1::Model {
+        self.describe_with(&BTreeMap::new()).unwrap_or_default()
+    }
+
+    fn describe_with(
+        &self,
+        parameters: &BTreeMap<String, v1::Value>,
+    ) -> Result<v1::Model, SetupError> {
+        let parameters = Parameters::new(KEYS, parameters)?;
+        let system = masses(&parameters)?;
+        Ok(describe(
+            "mass-chain",
+            "Three masses in a row between springs; the last one on a stiff spring or held by a constraint",
+            &parameters,
+            &system,
+            &face(&system),
+        ))
+    }
+
+    fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
+        let parameters = Parameters::new(KEYS, setup.all_parameters())?;
+        let system = masses(&parameters)?;
+        started(system, &face(&system), [&[0.0; 3], &[0.0; 3]], setup)
+    }
+}
+
+fn masses(parameters: &Parameters<'_>) -> Result<Masses, SetupError> {
+    let positive = |name| parameters.positive(name);
+    let spring = |name| parameters.non_negative(name);
+    Ok(Masses {
+        masses: [positive("m1")?, positive("m2")?, positive("m3")?],
+        springs: [spring("k1")?, spring("k2")?, spring("k3")?],
+        gravity: parameters.number("gravity")?,
+        end: if parameters.has("k0") {
+            End::Spring(spring("k0")?)
+        } else {
+            End::Constraint
+        },
+    })
+}
+
+fn face(system: &Masses) -> Face {
+    let coordinate = |number: usize| {
+        Coordinate::length(
+            &format!("q{number}"),
+            &format!("v{number}"),
+            &format!("displacement of mass {number}"),
+        )
+    };
+    let contacts = match system.end {
+        End::Spring(_) => vec![],
+        End::Constraint => vec!["wall".to_owned()],
+    };
+    let own = (1..=3).map(|number| {
+        output(
+            &format!("a{number}"),
+            "m/s^2",
+            &format!("acceleration of mass {number} as the scheme has it"),
+        )
+    });
+    Face {
+        coordinates: (1..=3).map(coordinate).collect(),
+        contacts,
+        own: own.collect(),
+        ..Face::default()
+    }
+}
+
+impl Observed for Masses {
+    fn own_output(&self, output: usize, motion: Motion<'_>) -> f64 {
+        motion.a[output]
+    }
+}

@@ -1,0 +1,293 @@
+//! A mechanical system in motion behind the worker protocol.
+
+use std::sync::Arc;
+
+use linchpin_proto::polynomial::Polynomial;
+use linchpin_proto::v1;
+use linchpin_worker::setup::SetupError;
+use linchpin_worker::{Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
+
+use super::face::{Face, Output};
+use super::observed::{Motion, Observed, PointMotion};
+use super::options::choose;
+use crate::mechanics::fixed::parts;
+use crate::nonsmooth::mechanics::StepError;
+use crate::nonsmooth::mixed::{ContactLog, Integrator};
+use crate::nonsmooth::state::Drive;
+
+/// Numbers of a snapshot behind those of the integrator: whether it has started, and the last macro step.
+const OWN_NUMBERS: usize = 4;
+
+/// One subsystem.
+pub struct Run<S> {
+    system: Arc<S>,
+    integrator: Integrator,
+    outputs: Vec<Output>,
+    /// Longest internal step (s).
+    step: f64,
+    /// Whether the accelerations at the start are known: they depend on the first inputs.
+    has_started: bool,
+    /// What happened in the last macro step.
+    last: Interlude,
+    /// Inputs at an instant, as polynomials.
+    held: Inputs,
+    accelerations: Vec<f64>,
+    /// Memory before a step, and of a snapshot.
+    kept: Vec<f64>,
+}
+
+/// Impacts of one macro step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Interlude {
+    impacts: f64,
+    /// Time of the first one, or of the end.
+    time: f64,
+    impulse: f64,
+}
+
+impl<S: Observed + 'static> Run<S> {
+    /// A system from its start, with the solver of `setup`.
+    ///
+    /// # Errors
+    /// [`SetupError`] if the solver, an option, or the two together are not allowed.
+    pub fn new(
+        system: S,
+        face: &Face,
+        start: [&[f64]; 2],
+        setup: &Setup,
+    ) -> Result<Self, SetupError> {
+        let choice = choose(setup)?;
+        let system = Arc::new(system);
+        let outputs = face.outputs(system.contacts());
+        let defaults: Vec<f64> = face
+            .inputs
+            .iter()
+            .map(|input| input.default.unwrap_or(0.0))
+            .collect();
+        let integrator = Integrator::new(
+            Box::new(Arc::clone(&system)),
+            defaults.len(),
+            choice.scheme,
+            choice.settings,
+            start,
+        );
+        let integrator = integrator.map_err(|error| SetupError::Refused {
+            field: "solver".to_owned(),
+            reason: error.to_string(),
+        })?;
+        Ok(Self {
+            outputs: outputs.into_iter().map(|(output, _)| output).collect(),
+            accelerations: vec![0.0; integrator.state.q.len()],
+            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS],
+            held: Inputs::constant(&defaults),
+            last: Interlude {
+                impacts: 0.0,
+                time: setup.t_start(),
+                impulse: 0.0,
+            },
+            step: choice.step,
+            has_started: false,
+            system,
+            integrator,
+        })
+    }
+
+    fn advance(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+        let parts = parts(interval, self.step)?;
+        let dt = interval.length / parts as f64;
+        let drive = Drive {
+            start: interval.start,
+            inputs,
+        };
+        let failed = |t: f64, error: StepError| StepFailure::Recoverable {
+            t,
+            message: error.to_string(),
+        };
+        self.integrator.begin_interval();
+        if !self.has_started {
+            let started = self.integrator.start(drive);
+            started.map_err(|error| failed(interval.start, error))?;
+            self.has_started = true;
+        }
+        let before = self.integrator.log;
+        let mut first_impact = None;
+        for part in 0..parts {
+            // Not added up, so that the last step ends where the interval does.
+            self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
+            let impacts = self.integrator.log.impacts;
+            let stepped = self.integrator.step(drive, dt);
+            let t = interval.start + self.integrator.state.tau;
+            stepped.map_err(|error| failed(t, error))?;
+            if self.integrator.log.impacts > impacts {
+                first_impact.get_or_insert(t);
+            }
+        }
+        let log = self.integrator.log;
+        self.last = Interlude {
+            impacts: (log.impacts - before.impacts) as f64,
+            time: first_impact.unwrap_or(interval.end()),
+            impulse: log.impulse - before.impulse,
+        };
+        Ok(())
+    }
+
+    /// All numbers that later steps and outputs depend on.
+    fn memory(&self, mut put: impl FnMut(&[f64])) {
+        self.integrator.memory(&mut put);
+        let Interlude {
+            impacts,
+            time,
+            impulse,
+        } = self.last;
+        put(&[
+            f64::from(u8::from(self.has_started)),
+            impacts,
+            time,
+            impulse,
+        ]);
+    }
+
+    fn recall(&mut self) {
+        if let &[has_started, impacts, time, impulse] = self.integrator.recall(&self.kept) {
+            self.has_started = has_started == 1.0;
+            self.last = Interlude {
+                impacts,
+                time,
+                impulse,
+            };
+        }
+    }
+
+    fn accelerate(&mut self, t: f64, inputs: &[f64]) -> Result<(), StepFailure> {
+        for (place, &value) in inputs.iter().take(self.held.len()).enumerate() {
+            self.held.replace(place, Polynomial::constant(value));
+        }
+        // The inputs are constant, so that the time since the start of an interval does not matter to them.
+        let drive = Drive {
+            start: t - self.integrator.state.tau,
+            inputs: &self.held,
+        };
+        let found = self.integrator.accelerations(drive);
+        let found = found.map_err(|error| StepFailure::Recoverable {
+            t,
+            message: error.to_string(),
+        })?;
+        self.accelerations.copy_from_slice(found);
+        Ok(())
+    }
+
+    fn marker(&self, marker: usize) -> PointMotion {
+        let state = &self.integrator.state;
+        self.system.marker(
+            marker,
+            Motion {
+                q: &state.q,
+                v: &state.v,
+                a: &self.accelerations,
+            },
+        )
+    }
+
+    fn value(&mut self, output: Output) -> f64 {
+        let log: ContactLog = self.integrator.log;
+        let state = &self.integrator.state;
+        match output {
+            Output::Position(place) => state.q[place],
+            Output::Velocity(place) => state.v[place],
+            Output::Marker {
+                marker,
+                level,
+                component,
+            } => self.marker(marker)[level][component],
+            Output::Own(output) => {
+                let motion = Motion {
+                    q: &state.q,
+                    v: &state.v,
+                    a: &state.a,
+                };
+                self.system.own_output(output, motion)
+            }
+            Output::Gap(place) => self.integrator.gaps()[place],
+            Output::Force(row) => state.forces[row],
+            Output::Energy => self.integrator.energy(),
+            Output::Impacts => self.last.impacts,
+            Output::ImpactTime => self.last.time,
+            Output::Impulse => self.last.impulse,
+            Output::ImpactLoss => log.impact_loss,
+            Output::FrictionLoss => log.friction_loss,
+        }
+    }
+}
+
+impl<S: Observed + 'static> Subsystem for Run<S> {
+    fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+        self.kept.clear();
+        let mut kept = std::mem::take(&mut self.kept);
+        self.memory(|numbers| kept.extend_from_slice(numbers));
+        self.kept = kept;
+        let advanced = self.advance(interval, inputs);
+        if advanced.is_err() {
+            self.recall();
+        }
+        advanced
+    }
+
+    fn outputs(
+        &mut self,
+        t: f64,
+        inputs: &[f64],
+        wanted: &[usize],
+        values: &mut [f64],
+    ) -> Result<(), StepFailure> {
+        let is_acceleration = |&number: &usize| {
+            matches!(
+                self.outputs.get(number),
+                Some(Output::Marker { level: 2, .. })
+            )
+        };
+        if wanted.iter().any(is_acceleration) {
+            self.accelerate(t, inputs)?;
+        }
+        for (value, &number) in values.iter_mut().zip(wanted) {
+            let output = self.outputs.get(number).copied();
+            let output = output.ok_or_else(|| StepFailure::Fatal {
+                message: format!("the model has no output number {number}"),
+            })?;
+            *value = self.value(output);
+        }
+        Ok(())
+    }
+
+    fn snapshot(&self, into: &mut Snapshot) {
+        self.memory(|numbers| into.put(numbers));
+    }
+
+    fn restore(&mut self, from: &Snapshot) -> Result<(), StepFailure> {
+        from.get(&mut self.kept)?;
+        self.recall();
+        Ok(())
+    }
+
+    fn internal_steps(&self) -> u64 {
+        self.integrator.mechanics.counters.steps
+    }
+
+    fn contacts(&self) -> Option<v1::Contacts> {
+        let mechanics = &self.integrator.mechanics;
+        if mechanics.contacts().is_empty() {
+            return None;
+        }
+        let (log, counters) = (self.integrator.log, mechanics.counters);
+        let [_, robust @ ..] = counters.contact_problems;
+        Some(v1::Contacts {
+            impacts: log.impacts,
+            first_impact: log.first_impact,
+            impulse: log.impulse,
+            penetration: log.penetration,
+            residual: counters.largest_residual,
+            problems: counters.contact_problems.iter().sum(),
+            robust: robust.iter().sum(),
+            ambiguous: counters.ambiguous,
+        })
+    }
+}
