@@ -6,6 +6,7 @@
 //!   to a tolerance of 1e-12;
 //! * [`SliderCrank`]: the same for a mechanism with a slider, with the force in its contact;
 //! * [`MotorDrivenSliderCrank`]: the same on the shaft of a motor with a speed controller;
+//! * [`GuidedSliderCrank`]: the slider-crank of S2 without clearance, in its one coordinate;
 //! * [`FourBar`]: a closed loop of bars on a frame that may be shaken, with the force in every hinge;
 //! * [`SpatialChain`]: rigid bodies in space in joints of any kind, with the load in every joint; [`Gimbal`]: a spinning
 //!   top as such a chain;
@@ -17,6 +18,7 @@ mod error;
 mod four_bar;
 mod free;
 mod gimbal;
+mod guided_slider_crank;
 mod linked;
 mod links;
 mod motor;
@@ -35,6 +37,7 @@ pub use error::ReferenceError;
 pub use four_bar::{Bar, FourBar, FourBarMotion, Shake, Side};
 pub use free::{FreeOscillation, Motion};
 pub use gimbal::Gimbal;
+pub use guided_slider_crank::{GuidedMotion, GuidedSliderCrank};
 pub use linked::{LinkError, LinkedOscillators};
 pub use links::{GroundHinge, Link, LinkMotion};
 pub use motor::{Motor, MotorDrivenMotion, MotorDrivenSliderCrank, SpeedController};

@@ -17,4 +17,6 @@ pub mod problem;
 pub mod solve;
 
 pub use problem::{Law, Problem};
-pub use solve::{ContactSettings, ContactSolver, Jacobian, Solved, SolverKind, Unsolved, Weights};
+pub use solve::{
+    ContactSettings, ContactSolver, DEFAULT, Jacobian, Solved, SolverKind, Unsolved, Weights,
+};

@@ -33,16 +33,19 @@ pub struct Settings {
     pub contact: ContactSettings,
 }
 
+/// The defaults of [`Settings`].
+pub const DEFAULT: Settings = Settings {
+    level: Level::Velocity,
+    has_consistent_start: true,
+    restarts_after_impacts: true,
+    tolerance: 1e-12,
+    most_iterations: 50,
+    contact: super::contact::DEFAULT,
+};
+
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            level: Level::Velocity,
-            has_consistent_start: true,
-            restarts_after_impacts: true,
-            tolerance: 1e-12,
-            most_iterations: 50,
-            contact: ContactSettings::default(),
-        }
+        DEFAULT
     }
 }
 

@@ -45,13 +45,16 @@ pub struct ContactSettings {
     pub tolerance: f64,
 }
 
+/// The defaults of [`ContactSettings`].
+pub const DEFAULT: ContactSettings = ContactSettings {
+    jacobian: Jacobian::Full,
+    weights: Weights::Automatic,
+    tolerance: 1e-13,
+};
+
 impl Default for ContactSettings {
     fn default() -> Self {
-        Self {
-            jacobian: Jacobian::Full,
-            weights: Weights::Automatic,
-            tolerance: 1e-13,
-        }
+        DEFAULT
     }
 }
 
