@@ -99,10 +99,6 @@ impl<S: Observed + 'static> Run<S> {
             start: interval.start,
             inputs,
         };
-        let failed = |t: f64, error: StepError| StepFailure::Recoverable {
-            t,
-            message: error.to_string(),
-        };
         self.integrator.begin_interval();
         if !self.has_started {
             let started = self.integrator.start(drive);
@@ -158,20 +154,31 @@ impl<S: Observed + 'static> Run<S> {
         }
     }
 
-    fn accelerate(&mut self, t: f64, inputs: &[f64]) -> Result<(), StepFailure> {
+    fn hold(&mut self, inputs: &[f64]) {
         for (place, &value) in inputs.iter().take(self.held.len()).enumerate() {
             self.held.replace(place, Polynomial::constant(value));
         }
-        // The inputs are constant, so that the time since the start of an interval does not matter to them.
+    }
+
+    /// Accelerations and forces at the start under these inputs; the first step finds them anew under its own.
+    fn show_start(&mut self, t: f64) -> Result<(), StepFailure> {
+        let drive = Drive {
+            start: t,
+            inputs: &self.held,
+        };
+        let started = self.integrator.start(drive);
+        started.map_err(|error| failed(t, error))
+    }
+
+    /// Accelerations under the inputs that are held, which are constant, so that the time since the start of an interval
+    /// does not matter to them.
+    fn accelerate(&mut self, t: f64) -> Result<(), StepFailure> {
         let drive = Drive {
             start: t - self.integrator.state.tau,
             inputs: &self.held,
         };
         let found = self.integrator.accelerations(drive);
-        let found = found.map_err(|error| StepFailure::Recoverable {
-            t,
-            message: error.to_string(),
-        })?;
+        let found = found.map_err(|error| failed(t, error))?;
         self.accelerations.copy_from_slice(found);
         Ok(())
     }
@@ -219,6 +226,13 @@ impl<S: Observed + 'static> Run<S> {
     }
 }
 
+fn failed(t: f64, error: StepError) -> StepFailure {
+    StepFailure::Recoverable {
+        t,
+        message: error.to_string(),
+    }
+}
+
 impl<S: Observed + 'static> Subsystem for Run<S> {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         self.kept.clear();
@@ -245,8 +259,13 @@ impl<S: Observed + 'static> Subsystem for Run<S> {
                 Some(Output::Marker { level: 2, .. })
             )
         };
-        if wanted.iter().any(is_acceleration) {
-            self.accelerate(t, inputs)?;
+        let needs_accelerations = wanted.iter().any(is_acceleration);
+        self.hold(inputs);
+        if !self.has_started {
+            self.show_start(t)?;
+        }
+        if needs_accelerations {
+            self.accelerate(t)?;
         }
         for (value, &number) in values.iter_mut().zip(wanted) {
             let output = self.outputs.get(number).copied();
