@@ -10,6 +10,15 @@ use linchpin_proto::v1::{Marker, MarkerKind};
 /// Time between two points of a difference: its error of fourth order is below what is asserted.
 const STEP: f64 = 5e-4;
 
+/// The models that a solver integrates as accurately as is checked. Those with impacts have a test of their own, in
+/// nonsmooth/markers.rs.
+fn smooth() -> impl Iterator<Item = Case> {
+    CASES.into_iter().filter(|case| {
+        let solvers = case.description().solvers;
+        solvers.iter().any(|solver| solver.name == TIGHT.0)
+    })
+}
+
 /// Every model, some time after its start, under constant loads.
 fn moving(case: Case) -> Body {
     let mut body = Body::of(case, TIGHT);
@@ -32,7 +41,7 @@ fn velocity_of(marker: &Marker, position: &[f64], rate: &[f64]) -> Vec<f64> {
 
 #[test]
 fn velocities_and_accelerations_are_rates_of_change() {
-    for case in CASES {
+    for case in smooth() {
         for marker in moving(case).model.markers {
             let positions = moving(case).rates(STEP, |body| body.read(&marker.position));
             let velocities = moving(case).rates(STEP, |body| body.read(&marker.velocity));
@@ -52,7 +61,7 @@ fn velocities_and_accelerations_are_rates_of_change() {
 #[test]
 fn the_power_of_the_loads_is_the_rate_of_the_energy() {
     let mut checked = 0;
-    for case in CASES {
+    for case in smooth() {
         let mut body = moving(case);
         if !body.model.outputs.iter().any(|own| own.name == "energy") {
             continue;

@@ -32,6 +32,11 @@ impl Subject {
         Body::of(self.case, self.solver).run
     }
 
+    fn is_smooth(&self) -> bool {
+        let outputs = self.case.description().outputs;
+        outputs.iter().all(|output| output.name != "impacts")
+    }
+
     fn number_of_inputs(&self) -> usize {
         self.case.description().inputs.len()
     }
@@ -148,12 +153,12 @@ fn a_perturbed_step_over_another_interval_is_an_ordinary_step() {
     }
 }
 
-/// The result is a smooth function of the inputs: second differences over an increment of 1e-6 of the load vanish to
+/// The result is a smooth function of the inputs, where there are no impacts: second differences over an increment of 1e-6 of the load vanish to
 /// rounding, far below the tolerance of 1e-8 that a solver with step-size control has.
 #[test]
 fn perturbed_steps_are_smooth_in_the_perturbation() {
     let length = 0.02;
-    for subject in subjects() {
+    for subject in subjects().into_iter().filter(Subject::is_smooth) {
         let mut subsystem = subject.build();
         subject.run(&mut *subsystem, 0..5);
         let kept = snapshot(&*subsystem);

@@ -55,7 +55,7 @@ impl Case {
 }
 
 /// At least one case of every model.
-pub const CASES: [Case; 12] = [
+pub const CASES: [Case; 14] = [
     Case {
         model: "oscillator",
         parameters: &[
@@ -174,6 +174,34 @@ pub const CASES: [Case; 12] = [
         is_minimal: false,
         load: 7.0,
     },
+    Case {
+        model: "slider-crank",
+        parameters: &[
+            ("c", 3.1e-4),
+            ("friction", 0.07),
+            ("constant_torque", 0.13),
+            ("theta1_0", 0.3),
+            ("theta2_0", -0.149),
+            ("omega1_0", 110.0),
+            ("omega2_0", -53.0),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 0.05,
+    },
+    Case {
+        model: "mass-chain",
+        parameters: &[
+            ("m1", 1.3),
+            ("m2", 0.7),
+            ("k1", 21.0),
+            ("k2", 13.0),
+            ("k3", 7.0),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 7.0,
+    },
 ];
 
 /// Systems with prescribed motion, which changes their energy.
@@ -194,6 +222,12 @@ pub fn solver(kind: &v1::SolverKind) -> Solver {
         "exact" => Solver("exact", &[]),
         "radau5" => Solver("radau5", &[]),
         "rk4" => Solver("rk4", &[("step", 7e-4)]),
+        "generalized-alpha" => Solver("generalized-alpha", &[("step", 7e-4)]),
+        "newmark-alpha" => Solver("newmark-alpha", &[("step", 7e-4), ("alpha_f", 0.1)]),
+        "bathe" => Solver("bathe", &[("step", 7e-4)]),
+        "ed-alpha" => Solver("ed-alpha", &[("step", 7e-4)]),
+        "moreau" => Solver("moreau", &[("step", 7e-4)]),
+        "hets" => Solver("hets", &[("step", 7e-4)]),
         other => panic!("the tests have no options for the solver {other}"),
     }
 }

@@ -10,7 +10,7 @@ use super::face::{Coordinate, Face};
 use super::keys::{Key, Parameters, absent, number};
 use super::model::{describe, started};
 use super::observed::{Motion, Observed};
-use crate::mechanics::describe::output;
+use crate::mechanics::describe::{input, output};
 use crate::nonsmooth::systems::masses::{End, Masses};
 
 /// Three masses in a row.
@@ -116,6 +116,15 @@ fn face(system: &Masses) -> Face {
     Face {
         coordinates: (1..=3).map(coordinate).collect(),
         contacts,
+        inputs: (1..=3)
+            .map(|number| {
+                input(
+                    &format!("f{number}"),
+                    "N",
+                    &format!("force on mass {number}"),
+                )
+            })
+            .collect(),
         own: own.collect(),
         ..Face::default()
     }

@@ -13,7 +13,7 @@ pub enum End {
     Constraint,
 }
 
-/// Masses, springs, end.
+/// Masses, springs, end. Inputs, if there are any, are forces on the masses (N).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Masses {
     /// `m_1` to `m_3` (kg).
@@ -73,6 +73,7 @@ impl MechanicalSystem for Masses {
         let (diagonal, neighbours) = self.stiffness();
         for i in 0..3 {
             force[i] = self.masses[i] * self.gravity - diagonal[i] * at.q[i];
+            force[i] += at.inputs.get(i).copied().unwrap_or(0.0);
         }
         for (i, k) in neighbours.into_iter().enumerate() {
             force[i] -= k * at.q[i + 1];
