@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod golden;
+mod golden_flexible;
 mod golden_masses;
 mod golden_rigid;
 mod stand;
