@@ -7,8 +7,11 @@ use super::coordinates::{Free, PER_NODE};
 use super::element::{Element, Row, Square, VALUES};
 use crate::nonsmooth::matrix::{BorderedBand, Shape, dot};
 
-/// Diagonals on each side of the main one that elements fill.
-const HALF_BANDWIDTH: usize = VALUES - 1;
+/// Diagonals on each side of the main one that elements fill in `S_ff` and `K_ff`, where displacements along and across do
+/// not meet: from `w` of one node to `w'` of the next.
+const HALF_BANDWIDTH: usize = 4;
+/// The same in `S_tilde`: from `u` of one node to `w'` of the next.
+const HALF_BANDWIDTH_SKEW: usize = 5;
 
 /// The integrals over a rod, and over point masses on it, in its coordinates `q`.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +41,7 @@ impl ShapeIntegrals {
     pub fn of(rod: &Rod, free: &Free) -> Self {
         let element = Element::of(rod);
         let n = free.count();
-        let half_bandwidth = HALF_BANDWIDTH.min(n.saturating_sub(1));
+        let zeros = |half_bandwidth: usize| banded(n, half_bandwidth.min(n.saturating_sub(1)));
         let mut integrals = Self {
             mass: rod.mass(),
             first_moment: [0.5 * rod.mass() * rod.length, 0.0],
@@ -47,9 +50,9 @@ impl ShapeIntegrals {
             stretch: vec![0.0; n],
             turn: vec![0.0; n],
             mean: [vec![0.0; n], vec![0.0; n]],
-            elastic: banded(n, half_bandwidth),
-            skew: banded(n, half_bandwidth),
-            stiffness: banded(n, half_bandwidth),
+            elastic: zeros(HALF_BANDWIDTH),
+            skew: zeros(HALF_BANDWIDTH_SKEW),
+            stiffness: zeros(HALF_BANDWIDTH),
         };
         for number in 0..rod.elements {
             let places = std::array::from_fn(|k| free.place(PER_NODE * number + k));
@@ -102,8 +105,8 @@ impl ShapeIntegrals {
             for &j in &moved {
                 let product = along[i] * along[j] + across[i] * across[j];
                 self.elastic.add(i, j, mass * product);
-                let product = along[i] * across[j] - across[i] * along[j];
-                self.skew.add(i, j, mass * product);
+                let skew = along[i] * across[j] - across[i] * along[j];
+                self.skew.add(i, j, mass * skew);
             }
         }
     }
@@ -166,8 +169,9 @@ fn add_row(row: &mut [f64], own: &Row, places: [Option<usize>; VALUES]) {
 fn add_square(square: &mut BorderedBand, own: &Square, places: [Option<usize>; VALUES]) {
     for (row, own) in places.into_iter().zip(own) {
         for (column, &value) in places.into_iter().zip(own) {
-            if let (Some(row), Some(column)) = (row, column) {
-                square.add(row, column, value);
+            match (row, column) {
+                (Some(row), Some(column)) if value != 0.0 => square.add(row, column, value),
+                _ => {}
             }
         }
     }
