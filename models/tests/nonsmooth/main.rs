@@ -3,8 +3,12 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod flexible_forms;
+mod flexible_motion;
 mod golden;
 mod golden_flexible;
 mod golden_masses;
 mod golden_rigid;
+mod quadrature;
+mod rod;
 mod stand;

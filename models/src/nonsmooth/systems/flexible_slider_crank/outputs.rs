@@ -17,10 +17,10 @@ impl FlexibleSliderCrank {
 
     /// Bending moment at the root of the rod, `E I w''` there (N m): the torque at the beam root of S2 Fig. 26.
     ///
-    /// The crank's end is a hinge, so that the moment there goes to 0 with finer elements and
-    /// [`super::super::rod::RotaryInertia::Consistent`]; with the inertia of all sections at the frame it goes to the
-    /// moment
-    /// `rho I l theta_2''` that turns them.
+    /// The crank's end is a hinge, so that the moment there goes to 0 with finer elements. Only with the tangential
+    /// frame and [`RotaryInertia::Frame`], as in S2, it goes to the moment `rho I l theta_2''` that turns all sections.
+    ///
+    /// [`RotaryInertia::Frame`]: crate::nonsmooth::systems::rod::RotaryInertia::Frame
     pub fn root_moment(&self, q: &[f64]) -> f64 {
         self.body.root_moment(&q[ANGLES..])
     }
@@ -50,7 +50,8 @@ impl FlexibleSliderCrank {
     /// Where a point of the rod's frame is.
     fn place(&self, q: &[f64], [x, y]: [f64; 2]) -> [f64; 2] {
         let l1 = self.mechanism.crank_length;
-        let ([s1, c1], [s2, c2]) = (Pose::of(q).crank, Pose::of(q).rod);
+        let pose = Pose::of(q);
+        let ([s1, c1], [s2, c2]) = (pose.crank, pose.rod);
         [l1 * c1 + c2 * x - s2 * y, l1 * s1 + s2 * x + c2 * y]
     }
 

@@ -7,8 +7,8 @@ use super::coordinates::{Free, PER_NODE};
 use super::element::{Element, Row, Square, VALUES};
 use crate::nonsmooth::matrix::{BorderedBand, Shape, dot};
 
-/// Diagonals on each side of the main one that elements fill in `S_ff` and `K_ff`, where displacements along and across do
-/// not meet: from `w` of one node to `w'` of the next.
+/// Diagonals on each side of the main one that elements fill in `S_ff` and `K_ff`, where displacements along and across
+/// do not meet: from `w` of one node to `w'` of the next.
 const HALF_BANDWIDTH: usize = 4;
 /// The same in `S_tilde`: from `u` of one node to `w'` of the next.
 const HALF_BANDWIDTH_SKEW: usize = 5;
