@@ -200,7 +200,8 @@ fn descriptions_name_only_what_they_have() {
 /// A state is what its parameter sets it to.
 #[test]
 fn states_start_at_their_parameters() {
-    for case in CASES {
+    let has_states = |case: &common::body::Case| !case.description().states.is_empty();
+    for case in CASES.into_iter().filter(has_states) {
         let mut body = Body::of(case, RADAU5);
         for state in body.model.states.clone() {
             let given = case

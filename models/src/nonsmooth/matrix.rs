@@ -157,21 +157,26 @@ impl BorderedBand {
         row.saturating_sub(w)..(row + w + 1).min(self.shape.banded)
     }
 
+    /// A row times `x`.
+    pub fn row_times(&self, row: usize, x: &[f64]) -> f64 {
+        let Shape { border, .. } = self.shape;
+        if row < border {
+            let order = self.shape.order();
+            return dot(&self.top[row * order..][..order], x);
+        }
+        let row = row - border;
+        let (head, tail) = x.split_at(border);
+        let columns = self.band_columns(row);
+        let left = &self.left[row * border..][..border];
+        let start = row * self.shape.bandwidth() + self.shape.half_bandwidth + columns.start - row;
+        let band = &self.band[start..][..columns.len()];
+        dot(left, head) + dot(band, &tail[columns])
+    }
+
     /// `y += factor A x`.
     pub fn multiply_add(&self, factor: f64, x: &[f64], y: &mut [f64]) {
-        let Shape { border, banded, .. } = self.shape;
-        let order = self.shape.order();
-        let (head, tail) = x.split_at(border);
-        for (y, row) in y.iter_mut().zip(self.top.chunks_exact(order.max(1))) {
-            *y += factor * dot(row, x);
-        }
-        for row in 0..banded {
-            let columns = self.band_columns(row);
-            let left = &self.left[row * border..][..border];
-            let start =
-                row * self.shape.bandwidth() + self.shape.half_bandwidth + columns.start - row;
-            let band = &self.band[start..][..columns.len()];
-            y[border + row] += factor * (dot(left, head) + dot(band, &tail[columns]));
+        for (row, y) in y.iter_mut().enumerate() {
+            *y += factor * self.row_times(row, x);
         }
     }
 
@@ -180,6 +185,19 @@ impl BorderedBand {
         add_scaled(factor, &other.top, &mut self.top);
         add_scaled(factor, &other.left, &mut self.left);
         add_scaled(factor, &other.band, &mut self.band);
+    }
+
+    /// Adds a matrix without a border to the band.
+    ///
+    /// # Panics
+    /// If it has a border, or not the size and bandwidth of the band.
+    pub fn add_band(&mut self, other: &Self) {
+        let own = Shape {
+            border: 0,
+            ..self.shape
+        };
+        assert_eq!(own, other.shape, "structure of the band");
+        add_scaled(1.0, &other.band, &mut self.band);
     }
 
     /// Adds `factor` times `other` to the block of these stages of a matrix of [`Shape::staged`].

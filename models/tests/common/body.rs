@@ -55,7 +55,7 @@ impl Case {
 }
 
 /// At least one case of every model.
-pub const CASES: [Case; 14] = [
+pub const CASES: [Case; 16] = [
     Case {
         model: "oscillator",
         parameters: &[
@@ -188,6 +188,37 @@ pub const CASES: [Case; 14] = [
         composition: &[],
         is_minimal: false,
         load: 0.05,
+    },
+    Case {
+        model: "slider-crank",
+        parameters: &[
+            ("c", 3.1e-4),
+            ("friction", 0.07),
+            ("elements", 3.0),
+            ("youngs_modulus", 2e5),
+            ("theta1_0", 0.3),
+            ("theta2_0", -0.149),
+            ("omega1_0", 11.0),
+            ("omega2_0", -5.3),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 0.01,
+    },
+    Case {
+        model: "slider-crank",
+        parameters: &[
+            ("elements", 7.0),
+            ("modes", 4.0),
+            ("youngs_modulus", 2e5),
+            ("material_damping", 1e-4),
+            ("theta1_0", 0.3),
+            ("theta2_0", -0.149),
+            ("omega1_0", 11.0),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 0.01,
     },
     Case {
         model: "mass-chain",

@@ -3,8 +3,13 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod flexible_forms;
+mod flexible_motion;
 mod golden;
+mod golden_flexible;
 mod golden_masses;
 mod golden_rigid;
 mod model_problem;
+mod quadrature;
+mod rod;
 mod stand;

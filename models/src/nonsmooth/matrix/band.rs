@@ -85,10 +85,12 @@ impl BandFactors {
         let (half, width) = (self.half, self.width());
         for column in 0..self.order {
             b.swap(column, self.pivots[column]);
-            let value = b[column];
+            let (done, rest) = b.split_at_mut(column + 1);
+            let value = done[column];
             if value != 0.0 {
-                for row in column + 1..(column + half + 1).min(self.order) {
-                    b[row] -= self.rows[row * width + column + half - row] * value;
+                for (below, b) in rest.iter_mut().take(half).enumerate() {
+                    let row = column + 1 + below;
+                    *b -= self.rows[row * width + column + half - row] * value;
                 }
             }
         }

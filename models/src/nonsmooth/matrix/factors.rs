@@ -57,9 +57,9 @@ impl Factors {
         for row in 0..border {
             let (head, tail) = matrix.top[row * order..][..order].split_at(border);
             self.right[row * banded..][..banded].copy_from_slice(tail);
-            for column in 0..border {
+            for (column, &value) in head.iter().enumerate() {
                 let eliminated = &self.eliminated[column * banded..][..banded];
-                self.complement[row * border + column] = head[column] - dot(tail, eliminated);
+                self.complement[row * border + column] = value - dot(tail, eliminated);
             }
         }
         dense::factor(border, &mut self.complement, &mut self.pivots)

@@ -35,6 +35,33 @@ impl Coordinate {
     }
 }
 
+/// A contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FaceContact {
+    /// Its name.
+    pub name: String,
+    /// Units of its gap and of its normal force.
+    pub units: [&'static str; 2],
+}
+
+impl FaceContact {
+    /// A contact at a point.
+    pub fn at_point(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            units: ["m", "N"],
+        }
+    }
+
+    /// A constraint of an angle.
+    pub fn of_angle(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            units: ["rad", "N m"],
+        }
+    }
+}
+
 /// A marker in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FaceMarker {
@@ -51,8 +78,8 @@ pub struct FaceMarker {
 pub struct Face {
     /// Coordinates that are shown; a system may have more behind them.
     pub coordinates: Vec<Coordinate>,
-    /// Names of the contacts, in their order.
-    pub contacts: Vec<String>,
+    /// The contacts, in their order.
+    pub contacts: Vec<FaceContact>,
     /// Inputs in the order of the system.
     pub inputs: Vec<v1::Variable>,
     /// Outputs of its own.
@@ -128,20 +155,24 @@ impl Face {
 
     fn add_contacts(&self, contacts: &[Contact], all: &mut Vec<(Output, v1::Variable)>) {
         let mut row = 0;
-        for (place, (contact, name)) in contacts.iter().zip(&self.contacts).enumerate() {
+        for (place, (contact, own)) in contacts.iter().zip(&self.contacts).enumerate() {
+            let FaceContact {
+                name,
+                units: [gap_unit, force_unit],
+            } = own;
             let what = match contact.side {
                 Side::Unilateral => "open where positive",
                 Side::Bilateral => "0 up to drift",
             };
             let gap = output(
                 &format!("gap_{name}"),
-                "",
+                gap_unit,
                 &format!("gap at {name}, {what}"),
             );
             all.push((Output::Gap(place), gap));
             let normal = output(
                 &format!("normal_{name}"),
-                "N",
+                force_unit,
                 &format!("normal force at {name} between impacts"),
             );
             all.push((Output::Force(row), normal));

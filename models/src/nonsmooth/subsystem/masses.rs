@@ -1,16 +1,18 @@
 //! The model `mass-chain`: three masses between springs with a stiff end or a constraint (S2 Sect. 2.8).
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Model, Setup, Subsystem};
 
-use super::face::{Coordinate, Face};
+use super::face::{Coordinate, Face, FaceContact};
 use super::keys::{Key, Parameters, absent, number};
 use super::model::{describe, started};
-use super::observed::{Motion, Observed};
+use super::observed::{Motion, Observer};
 use crate::mechanics::describe::{input, output};
+use crate::nonsmooth::system::MechanicalSystem;
 use crate::nonsmooth::systems::masses::{End, Masses};
 
 /// Three masses in a row.
@@ -67,7 +69,7 @@ impl Model for MassChain {
             "mass-chain",
             "Three masses in a row between springs; the last one on a stiff spring or held by a constraint",
             &parameters,
-            &system,
+            system.contacts(),
             &face(&system),
         ))
     }
@@ -75,7 +77,14 @@ impl Model for MassChain {
     fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
         let parameters = Parameters::new(KEYS, setup.all_parameters())?;
         let system = masses(&parameters)?;
-        started(system, &face(&system), [&[0.0; 3], &[0.0; 3]], setup)
+        let face = face(&system);
+        started(
+            Arc::new(system),
+            Accelerations,
+            &face,
+            [&[0.0; 3], &[0.0; 3]],
+            setup,
+        )
     }
 }
 
@@ -104,7 +113,7 @@ fn face(system: &Masses) -> Face {
     };
     let contacts = match system.end {
         End::Spring(_) => vec![],
-        End::Constraint => vec!["wall".to_owned()],
+        End::Constraint => vec![FaceContact::at_point("wall")],
     };
     let own = (1..=3).map(|number| {
         output(
@@ -130,7 +139,10 @@ fn face(system: &Masses) -> Face {
     }
 }
 
-impl Observed for Masses {
+/// Shows accelerations.
+struct Accelerations;
+
+impl Observer for Accelerations {
     fn own_output(&self, output: usize, motion: Motion<'_>) -> f64 {
         motion.a[output]
     }

@@ -1,24 +1,27 @@
 //! What nonsmooth models have in common towards a master.
 
+use std::sync::Arc;
+
 use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Setup, Subsystem};
 
 use super::face::Face;
 use super::keys::Parameters;
-use super::observed::Observed;
+use super::observed::Observer;
 use super::options;
 use super::run::Run;
+use crate::nonsmooth::system::{Contact, MechanicalSystem};
 
 /// The description of a model with these parameters.
 pub fn describe(
     name: &str,
     what: &str,
     parameters: &Parameters<'_>,
-    system: &impl Observed,
+    contacts: &[Contact],
     face: &Face,
 ) -> v1::Model {
-    let outputs = face.outputs(system.contacts());
+    let outputs = face.outputs(contacts);
     v1::Model {
         name: name.to_owned(),
         description: what.to_owned(),
@@ -37,10 +40,12 @@ pub fn describe(
 
 /// A system as a subsystem at its start.
 pub fn started(
-    system: impl Observed + 'static,
+    system: Arc<impl MechanicalSystem + Sync + 'static>,
+    observer: impl Observer + 'static,
     face: &Face,
     start: [&[f64]; 2],
     setup: &Setup,
 ) -> Result<Box<dyn Subsystem>, SetupError> {
-    Ok(Box::new(Run::new(system, face, start, setup)?))
+    let run = Run::new(system, Box::new(observer), face, start, setup)?;
+    Ok(Box::new(run))
 }

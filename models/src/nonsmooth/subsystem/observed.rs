@@ -1,7 +1,5 @@
 //! What a system shows besides coordinates and contacts.
 
-use crate::nonsmooth::system::MechanicalSystem;
-
 /// Motion of a system at an instant.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
@@ -16,8 +14,8 @@ pub struct Motion<'a> {
 /// Motion of a marker in the plane: `(x, y, angle)`, its rates, and their rates.
 pub type PointMotion = [[f64; 3]; 3];
 
-/// A mechanical system with outputs of its own.
-pub trait Observed: MechanicalSystem + Sync {
+/// What looks at the motion of a system for its own outputs and markers.
+pub trait Observer: Send {
     /// Value of the system's own output number `output`, in the order of its face.
     fn own_output(&self, _output: usize, _motion: Motion<'_>) -> f64 {
         f64::NAN

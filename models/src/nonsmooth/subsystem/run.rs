@@ -8,19 +8,20 @@ use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
 
 use super::face::{Face, Output};
-use super::observed::{Motion, Observed, PointMotion};
+use super::observed::{Motion, Observer, PointMotion};
 use super::options::choose;
 use crate::mechanics::fixed::parts;
 use crate::nonsmooth::mechanics::StepError;
 use crate::nonsmooth::mixed::{ContactLog, Integrator};
 use crate::nonsmooth::state::Drive;
+use crate::nonsmooth::system::MechanicalSystem;
 
 /// Numbers of a snapshot behind those of the integrator: whether it has started, and the last macro step.
 const OWN_NUMBERS: usize = 4;
 
 /// One subsystem.
-pub struct Run<S> {
-    system: Arc<S>,
+pub struct Run {
+    observer: Box<dyn Observer>,
     integrator: Integrator,
     outputs: Vec<Output>,
     /// Longest internal step (s).
@@ -45,19 +46,19 @@ struct Interlude {
     impulse: f64,
 }
 
-impl<S: Observed + 'static> Run<S> {
+impl Run {
     /// A system from its start, with the solver of `setup`.
     ///
     /// # Errors
     /// [`SetupError`] if the solver, an option, or the two together are not allowed.
     pub fn new(
-        system: S,
+        system: Arc<dyn MechanicalSystem + Sync>,
+        observer: Box<dyn Observer>,
         face: &Face,
         start: [&[f64]; 2],
         setup: &Setup,
     ) -> Result<Self, SetupError> {
         let choice = choose(setup)?;
-        let system = Arc::new(system);
         let outputs = face.outputs(system.contacts());
         let defaults: Vec<f64> = face
             .inputs
@@ -65,7 +66,7 @@ impl<S: Observed + 'static> Run<S> {
             .map(|input| input.default.unwrap_or(0.0))
             .collect();
         let integrator = Integrator::new(
-            Box::new(Arc::clone(&system)),
+            Box::new(system),
             defaults.len(),
             choice.scheme,
             choice.settings,
@@ -87,7 +88,7 @@ impl<S: Observed + 'static> Run<S> {
             },
             step: choice.step,
             has_started: false,
-            system,
+            observer,
             integrator,
         })
     }
@@ -185,7 +186,7 @@ impl<S: Observed + 'static> Run<S> {
 
     fn marker(&self, marker: usize) -> PointMotion {
         let state = &self.integrator.state;
-        self.system.marker(
+        self.observer.marker(
             marker,
             Motion {
                 q: &state.q,
@@ -212,7 +213,7 @@ impl<S: Observed + 'static> Run<S> {
                     v: &state.v,
                     a: &state.a,
                 };
-                self.system.own_output(output, motion)
+                self.observer.own_output(output, motion)
             }
             Output::Gap(place) => self.integrator.gaps()[place],
             Output::Force(row) => state.forces[row],
@@ -233,7 +234,7 @@ fn failed(t: f64, error: StepError) -> StepFailure {
     }
 }
 
-impl<S: Observed + 'static> Subsystem for Run<S> {
+impl Subsystem for Run {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         self.kept.clear();
         let mut kept = std::mem::take(&mut self.kept);

@@ -55,6 +55,24 @@ pub struct RigidSliderCrank {
     contacts: Vec<Contact>,
 }
 
+impl Guide {
+    /// Laws of the corners, or of the two constraints; none.
+    pub fn contacts(self) -> Vec<Contact> {
+        match self {
+            Self::Clearance(law) => vec![law.contact(); CORNERS],
+            Self::Bilateral { friction } => vec![
+                Contact {
+                    friction,
+                    tangents: 1,
+                    ..Contact::CONSTRAINT
+                },
+                Contact::CONSTRAINT,
+            ],
+            Self::Free => Vec::new(),
+        }
+    }
+}
+
 impl Mechanism {
     /// S2 Table 1.
     pub fn table_1() -> Self {
@@ -89,18 +107,7 @@ impl Mechanism {
 impl RigidSliderCrank {
     /// A mechanism with a guide.
     pub fn new(mechanism: Mechanism, guide: Guide) -> Self {
-        let contacts = match guide {
-            Guide::Clearance(law) => vec![law.contact(); CORNERS],
-            Guide::Bilateral { friction } => vec![
-                Contact {
-                    friction,
-                    tangents: 1,
-                    ..Contact::CONSTRAINT
-                },
-                Contact::CONSTRAINT,
-            ],
-            Guide::Free => Vec::new(),
-        };
+        let contacts = guide.contacts();
         Self {
             mechanism,
             guide,

@@ -1,0 +1,76 @@
+//! The mechanism with a flexible rod: outputs and markers.
+
+use std::sync::Arc;
+
+use super::face::MOVING;
+use super::picture::place;
+use super::rigid::{along, with_angle};
+use crate::nonsmooth::subsystem::observed::{Motion, Observer, PointMotion};
+use crate::nonsmooth::system::MechanicalSystem;
+use crate::nonsmooth::systems::flexible_slider_crank::FlexibleSliderCrank;
+
+/// A flexible mechanism with the magnification of its picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flexible {
+    /// The mechanism.
+    pub system: Arc<FlexibleSliderCrank>,
+    /// Of what is only drawn.
+    pub magnification: f64,
+}
+
+impl Flexible {
+    /// All coordinates from the three angles: the rod is not deformed.
+    pub fn undeformed(&self, angles: [f64; 3]) -> Vec<f64> {
+        let mut all = vec![0.0; self.system.shape().order()];
+        all[..3].copy_from_slice(&angles);
+        all
+    }
+
+    fn slider(&self, motion: Motion<'_>) -> PointMotion {
+        let Motion { q, v, a } = motion;
+        let [x, y] = self.system.slider(q);
+        let [vx, vy] = self.system.slider_velocity(q, v);
+        let [ax, ay] = self.system.slider_acceleration(q, v, a);
+        [[x, y, q[2]], [vx, vy, v[2]], [ax, ay, a[2]]]
+    }
+}
+
+impl Observer for Flexible {
+    fn own_output(&self, output: usize, motion: Motion<'_>) -> f64 {
+        let q = motion.q;
+        match output {
+            0 => {
+                let clearance = self.system.mechanism().notch.clearance;
+                let [_, y] = self.system.slider(q);
+                if clearance > 0.0 { y / clearance } else { y }
+            }
+            1 => self.system.end_displacement(q)[0],
+            2 => self.system.end_displacement(q)[1],
+            _ => self.system.root_moment(q),
+        }
+    }
+
+    fn marker(&self, marker: usize, motion: Motion<'_>) -> PointMotion {
+        let mechanism = self.system.mechanism();
+        let lengths = [mechanism.crank_length, mechanism.rod.length];
+        let turn = |place: usize| [motion.q[place], motion.v[place], motion.a[place]];
+        let still = [[0.0; 3]; 3];
+        let pin = || along(still, lengths[0], turn(0));
+        match marker {
+            0 => with_angle(still, turn(0)),
+            1 => with_angle(pin(), turn(1)),
+            2 => self.slider(motion),
+            _ => {
+                let [x, y] = self.system.slider(motion.q);
+                let centre = [x, y, motion.q[2]];
+                let notch = &mechanism.notch;
+                let drawn = place(marker - MOVING, notch, lengths, centre, self.magnification);
+                let drawn = drawn.unwrap_or_else(|node| {
+                    let [x, y] = self.system.node(motion.q, node, self.magnification);
+                    [x, y, motion.q[1]]
+                });
+                [drawn, [0.0; 3], [0.0; 3]]
+            }
+        }
+    }
+}
