@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod figures;
 mod flexible_forms;
 mod flexible_motion;
 mod golden;
