@@ -148,6 +148,27 @@ fn a_macro_step_of_a_chain_allocates_nothing() {
     }
 }
 
+/// Impacts and resting contacts included: 100 macro steps of the mechanism, rigid and flexible, alone and under control.
+#[test]
+fn a_macro_step_with_impacts_allocates_nothing() {
+    let alone = include_str!("../../scenes/s2/slider-crank.toml");
+    let flexible = [
+        "subsystem.mechanism.parameters.elements=4",
+        "subsystem.mechanism.solver={ kind = \"ed-alpha\", step = 1e-5 }",
+    ];
+    let moreau = ["subsystem.mechanism.solver={ kind = \"moreau\", step = 1e-5 }"];
+    for overrides in [&[][..], &flexible, &moreau] {
+        assert_eq!(
+            allocations_per_100_steps(alone, overrides),
+            0,
+            "{overrides:?}"
+        );
+    }
+    let controlled = include_str!("../../scenes/s2/speed-control.toml");
+    let every_step = ["coupling.jacobian=every-step"];
+    assert_eq!(allocations_per_100_steps(controlled, &every_step), 0);
+}
+
 /// An instance of a model under a joint load that reads all of its partner's pose.
 fn joined(model: &str, signals: [&[u32]; 3], axis: [f64; 3]) -> v1::InitializeRequest {
     let number = |value| v1::Value {
