@@ -6,4 +6,5 @@
 mod golden;
 mod golden_masses;
 mod golden_rigid;
+mod spectrum;
 mod stand;
