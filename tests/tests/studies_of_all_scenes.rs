@@ -10,8 +10,8 @@ use linchpin_master::scene::{self, Override, Scene};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
-/// The scene whose workers run in containers, the one that is no scene but a study, monolithic ones, which couple nothing, and
-/// those that need a macro step that varies.
+/// The scene whose workers run in containers, those that are no scenes but studies, monolithic ones, which couple
+/// nothing, and those that need a macro step that varies. Files for `linchpin spectrum` are left out as well.
 const LEFT_OUT: [&str; 5] = [
     "oscillator-compose.toml",
     "report.toml",
@@ -34,7 +34,8 @@ fn shipped() -> Vec<PathBuf> {
     }
     found.retain(|path| {
         let name = path.strip_prefix(SCENES).unwrap().to_string_lossy();
-        LEFT_OUT.iter().all(|left_out| !name.starts_with(left_out))
+        let is_scene = !scene::is_spectrum(path);
+        is_scene && LEFT_OUT.iter().all(|left_out| !name.starts_with(left_out))
     });
     assert!(found.len() >= 25, "{found:?}");
     found
