@@ -2,6 +2,7 @@
 //! Figs. 6 to 12.
 
 mod closed_forms;
+mod documented;
 mod energy_decaying;
 mod generalized_alpha;
 mod golden;
