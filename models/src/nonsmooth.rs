@@ -8,7 +8,8 @@
 //! * [`contact`]: the contact problem and its solvers;
 //! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and counters;
 //! * [`systems`]: mechanical systems; `subsystem`: any of them behind the worker protocol;
-//! * [`state`]: plain values between steps; [`matrix`]: matrices with a border and a band.
+//! * [`state`]: plain values between steps; [`matrix`]: matrices with a border and a band;
+//! * [`spectrum`]: stability, damping and period errors of the schemes.
 
 pub mod activity;
 pub mod contact;
@@ -17,6 +18,7 @@ pub mod matrix;
 pub mod mechanics;
 pub mod mixed;
 pub mod schemes;
+pub mod spectrum;
 pub mod stages;
 pub mod start;
 pub mod state;

@@ -10,7 +10,7 @@ use linchpin_master::scene::{self, Override, Scene};
 
 const SCENES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes");
 
-/// The scene whose workers run in containers, the one that is no scene but a study, monolithic ones and those of S2, which couple
+/// The scene whose workers run in containers, those that are no scenes but studies, monolithic ones and those of S2, which couple
 /// nothing, and those that need a macro step that varies.
 const LEFT_OUT: [&str; 6] = [
     "oscillator-compose.toml",
@@ -35,7 +35,8 @@ fn shipped() -> Vec<PathBuf> {
     }
     found.retain(|path| {
         let name = path.strip_prefix(SCENES).unwrap().to_string_lossy();
-        LEFT_OUT.iter().all(|left_out| !name.starts_with(left_out))
+        let is_scene = !scene::is_spectrum(path);
+        is_scene && LEFT_OUT.iter().all(|left_out| !name.starts_with(left_out))
     });
     assert!(found.len() >= 25, "{found:?}");
     found

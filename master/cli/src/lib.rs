@@ -5,6 +5,7 @@
 //! * [`closed_form`]: the exact solution of scenes that have one;
 //! * [`error_norm`]: errors of a run;
 //! * [`study`]: many runs of one scene with other settings;
+//! * [`spectra`]: stability, damping and period errors of integration schemes;
 //! * [`interrupt`]: Ctrl-C as a request to stop a run;
 //! * [`plot`]: the pictures of runs and studies;
 //! * [`animation`]: the moving mechanism as a page of its own.
@@ -22,4 +23,5 @@ pub mod interrupt;
 pub mod plot;
 pub mod results;
 pub mod simulate;
+pub mod spectra;
 pub mod study;

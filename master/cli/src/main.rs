@@ -4,7 +4,9 @@ use std::io::IsTerminal;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use linchpin::commands::{CommandError, check, converge, describe, report, run, stability, worker};
+use linchpin::commands::{
+    CommandError, check, converge, describe, report, run, spectrum, stability, worker,
+};
 use linchpin::diagnostics;
 use tracing_subscriber::filter::Targets;
 use tracing_subscriber::prelude::*;
@@ -46,6 +48,7 @@ enum Command {
     Converge(converge::Arguments),
     Stability(stability::Arguments),
     Report(report::Arguments),
+    Spectrum(spectrum::Arguments),
 }
 
 fn main() -> ExitCode {
@@ -75,5 +78,6 @@ fn execute(command: &Command) -> Result<(), CommandError> {
         Command::Converge(arguments) => converge::execute(arguments),
         Command::Stability(arguments) => stability::execute(arguments),
         Command::Report(arguments) => report::execute(arguments),
+        Command::Spectrum(arguments) => spectrum::execute(arguments),
     }
 }

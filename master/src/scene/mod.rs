@@ -23,6 +23,7 @@ mod reader;
 mod reference;
 mod resolve;
 mod resolved;
+mod spectrum;
 mod stability_rules;
 mod step_control;
 mod study;
@@ -47,6 +48,10 @@ pub use resolved::{
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
     Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
     Variant,
+};
+pub use spectrum::{
+    RegionPoint, SpectrumCurve, SpectrumFile, SpectrumRegion, SpectrumScheme, is_spectrum,
+    load_spectrum, parse_spectrum,
 };
 pub(crate) use stability_rules::highest_stable_degree;
 pub use stability_rules::{Warning, warnings};

@@ -173,6 +173,8 @@ pub(super) fn sections<'w>(
         "connection" => "tables headed [[connection]]",
         "scene" => "tables headed [[scene]]",
         "setting" => "tables headed [[setting]]",
+        "curve" => "tables headed [[spectrum.curve]]",
+        "point" => "tables headed [[spectrum.region.point]]",
         _ => "tables headed [[case]]",
     };
     let items = root

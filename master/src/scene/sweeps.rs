@@ -199,6 +199,26 @@ fn read_range(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Vec<
     )
 }
 
+/// Values from `from` up to `to` at equal distances; the keys may come in any order.
+pub(super) fn read_linear_grid(
+    section: &Section<'_>,
+    problems: &mut Problems<'_>,
+) -> Option<Vec<f64>> {
+    section.allow_only(&["from", "to", "points"], problems);
+    let mut values = read_range(section, problems)?;
+    values.sort_by(f64::total_cmp);
+    Some(values)
+}
+
+/// Values from `from` to `to`, both positive, at equal ratios.
+pub(super) fn log_grid(from: f64, to: f64, points: usize) -> Vec<f64> {
+    let value = |i| match i {
+        0 => from,
+        i => grid_value(from, to, i, points - 1, Scale::Log),
+    };
+    (0..points).map(value).collect()
+}
+
 fn grid_value(from: f64, to: f64, i: usize, last: usize, scale: Scale) -> f64 {
     if i == last {
         return to;

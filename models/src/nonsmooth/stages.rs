@@ -70,8 +70,9 @@ pub struct Stages {
     /// What is left, then the free velocities: stages side by side.
     staged: Vec<f64>,
     responses: Vec<f64>,
-    /// Largest velocity without contact forces: what they may cancel.
-    free_size: f64,
+    /// Largest velocity so far in this solution, without contact forces included: what changes are compared with. A solution
+    /// near 0 would be compared with its own rounding.
+    size: f64,
 }
 
 impl Stages {
@@ -99,7 +100,7 @@ impl Stages {
             force: row(),
             staged: vec![0.0; count * n],
             responses: Vec::new(),
-            free_size: 0.0,
+            size: 0.0,
         }
     }
 
@@ -113,6 +114,7 @@ impl Stages {
     ) -> Result<(), StepError> {
         let settings = mechanics.settings;
         let mut previous = f64::INFINITY;
+        self.size = 0.0;
         for iteration in 1..=settings.most_iterations {
             mechanics.counters.iterations += 1;
             self.linearise(mechanics, step, coefficients)?;
@@ -203,7 +205,7 @@ impl Stages {
                 self.staged[count * i + r] += v;
             }
         }
-        self.free_size = self.staged.iter().fold(0.0, |size, v| v.abs().max(size));
+        self.size = self.staged.iter().fold(self.size, |size, v| v.abs().max(size));
         Ok(())
     }
 
@@ -278,7 +280,7 @@ impl Stages {
     /// Takes the velocities in `staged`; their largest change as a share of their size.
     fn accept_velocities(&mut self) -> f64 {
         let count = self.stages.len();
-        let (mut change, mut size) = (0.0_f64, self.free_size);
+        let (mut change, mut size) = (0.0_f64, self.size);
         let mut is_finite = true;
         for (r, stage) in self.stages.iter_mut().enumerate() {
             for (i, v) in stage.v.iter_mut().enumerate() {
@@ -289,6 +291,7 @@ impl Stages {
                 *v = new;
             }
         }
+        self.size = size;
         match (is_finite, change == 0.0) {
             (false, _) => f64::NAN,
             (true, true) => 0.0,

@@ -13,4 +13,5 @@ mod golden_rigid;
 mod model_problem;
 mod quadrature;
 mod rod;
+mod spectrum;
 mod stand;

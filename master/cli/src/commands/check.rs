@@ -2,7 +2,7 @@
 
 use linchpin_master::CoSimulation;
 use linchpin_master::cosimulation::Options;
-use linchpin_master::scene::{Case, Scene, Served};
+use linchpin_master::scene::{Case, Scene, Served, is_spectrum, load_spectrum};
 
 use super::CommandError;
 use super::common::{SceneArguments, case_folders, print, warn};
@@ -20,8 +20,11 @@ pub struct Arguments {
     scene: SceneArguments,
 }
 
-/// Checks the scene and all its cases.
+/// Checks the scene and all its cases, or a file for `linchpin spectrum`.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
+    if is_spectrum(&arguments.scene.scene) {
+        return check_spectrum(&arguments.scene);
+    }
     let scene = arguments.scene.load()?;
     case_folders(&scene)?;
     check(&scene)?;
@@ -43,6 +46,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         arguments.scene.scene.display(),
         elsewhere.join(", ")
     ))
+}
+
+fn check_spectrum(arguments: &SceneArguments) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    if !arguments.set.is_empty() {
+        return Err(CommandError::NoSettings { path: path.clone() });
+    }
+    load_spectrum(path)?;
+    print(format_args!("{}: ok\n", path.display()))
 }
 
 fn check_case(scene: &Scene, case: &Case) -> Result<(), CommandError> {

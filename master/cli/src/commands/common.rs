@@ -23,6 +23,10 @@ pub struct SceneArguments {
 impl SceneArguments {
     /// Reads the scene; warnings about known instabilities go to the error output.
     pub fn load(&self) -> Result<Scene, CommandError> {
+        if scene::is_spectrum(&self.scene) {
+            let path = self.scene.clone();
+            return Err(CommandError::NoScene { path });
+        }
         let scene = scene::load(&self.scene, &self.set)?;
         for warning in warnings(&scene) {
             warn(warning);

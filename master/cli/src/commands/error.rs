@@ -11,6 +11,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 use crate::interrupt;
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
+use crate::spectra::FailedCurve;
 use crate::study::StudyError;
 
 /// Why a command failed.
@@ -82,6 +83,27 @@ pub enum CommandError {
         /// Flags that do the same.
         flags: &'static str,
     },
+    /// A file for `linchpin spectrum` where a scene is asked for.
+    #[error(
+        "{} describes spectra of integration schemes and no scene; give it to linchpin spectrum",
+        path.display()
+    )]
+    NoScene {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Settings of a file that has none.
+    #[error(
+        "--set changes scenes, and {} describes spectra of integration schemes; change the file itself",
+        path.display()
+    )]
+    NoSettings {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A scheme has no spectrum.
+    #[error(transparent)]
+    Spectrum(#[from] FailedCurve),
     /// A study and other files at once.
     #[error(
         "{} is a study, which stands alone; give one study, or one or more scenes",
@@ -130,6 +152,8 @@ impl CommandError {
             }
             Self::NothingToStudy { .. }
             | Self::NothingToAnimate
+            | Self::NoScene { .. }
+            | Self::NoSettings { .. }
             | Self::StudyAmongOthers { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,

@@ -7,6 +7,7 @@ pub mod describe;
 pub mod error;
 pub mod report;
 pub mod run;
+pub mod spectrum;
 pub mod stability;
 pub mod worker;
 

@@ -11,9 +11,9 @@ use super::style::{
 /// What stands for a name in a legend.
 #[derive(Clone, Copy)]
 pub(super) struct Key {
-    pub marker: Marker,
+    pub marker: Option<Marker>,
     pub colour: RGBColor,
-    /// Width in pixels of the line through the marker, if there is one.
+    /// Width in pixels of the line through the place of the marker, if there is one.
     pub line: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ impl Legend {
         let entry = |(index, name): (usize, &&str)| {
             let (colour, marker) = curve_style(index);
             let key = Key {
-                marker,
+                marker: Some(marker),
                 colour,
                 line: Some(line),
             };
@@ -108,9 +108,9 @@ impl Entry {
             Some(_) => (x + line_end) / 2,
             None => line_end - units(MARKER_RADIUS + 4.0),
         };
-        self.key
-            .marker
-            .draw(area, (centre, y), units(MARKER_RADIUS), self.key.colour)?;
+        if let Some(marker) = self.key.marker {
+            marker.draw(area, (centre, y), units(MARKER_RADIUS), self.key.colour)?;
+        }
         area.draw_text(
             &self.name,
             &text(LABEL_TEXT, FRAME, HPos::Left, VPos::Center),

@@ -93,7 +93,7 @@ impl<'a> Layout<'a> {
             .map(|(verdict, name)| {
                 let (marker, colour) = mark(verdict);
                 let key = Key {
-                    marker,
+                    marker: Some(marker),
                     colour,
                     line: None,
                 };
@@ -114,46 +114,15 @@ impl<'a> Layout<'a> {
         panel: &MapPanel,
         cells: &[PlacedCell],
     ) -> Drawn<DB> {
-        let height = inner_height(area, &panel.title);
-        let y = axis(&panel.y, |range| {
-            Axis::vertical(panel.y.scale, range, height)
-        });
-        let left = room_left(&y);
-        let width = inner_width(area, left);
-        let x = axis(&panel.x, |range| {
-            Axis::horizontal(panel.x.scale, range, width)
-        });
-        let axes = Axes {
-            title: &panel.title,
-            x,
-            y,
-            x_label: Some(&panel.x.label),
-            y_label: &panel.y.label,
-            left,
-            grid: false,
-        };
-        let inside = Panel::new(area, axes)?;
+        let inside = panel_of(area, panel)?;
         if cells.is_empty() {
             return inside.note_no_data();
         }
-        self.draw_colours(&inside, cells)?;
+        if let Some(colours) = &self.colours {
+            draw_colours(&inside, colours, cells)?;
+        }
         draw_marks(&inside, cells)?;
         inside.frame()
-    }
-
-    fn draw_colours<DB: Surface>(&self, inside: &Panel<DB>, cells: &[PlacedCell]) -> Drawn<DB> {
-        let Some(colours) = &self.colours else {
-            return Ok(());
-        };
-        for placed in cells {
-            if let Some(colour) = placed.cell.growth.and_then(|growth| colours.of(growth)) {
-                let (lower, upper) = corners(inside, placed);
-                inside
-                    .area
-                    .draw(&Rectangle::new([lower, upper], colour.filled()))?;
-            }
-        }
-        Ok(())
     }
 
     /// Draws the colour bar beside all panels, from the top of the first to the bottom of the last.
@@ -174,6 +143,48 @@ impl<'a> Layout<'a> {
         let (_, bar) = above.split_vertically(top);
         colours.draw(&bar, &self.plot.growth_label)
     }
+}
+
+/// The axes of a panel, without its cells.
+pub(super) fn panel_of<DB: Surface>(
+    area: &DrawingArea<DB, Shift>,
+    panel: &MapPanel,
+) -> Drawn<DB, Panel<DB>> {
+    let height = inner_height(area, &panel.title);
+    let y = axis(&panel.y, |range| {
+        Axis::vertical(panel.y.scale, range, height)
+    });
+    let left = room_left(&y);
+    let width = inner_width(area, left);
+    let x = axis(&panel.x, |range| {
+        Axis::horizontal(panel.x.scale, range, width)
+    });
+    let axes = Axes {
+        title: &panel.title,
+        x,
+        y,
+        x_label: Some(&panel.x.label),
+        y_label: &panel.y.label,
+        left,
+        grid: false,
+    };
+    Panel::new(area, axes)
+}
+
+/// Fills every cell with the colour of its growth factor.
+pub(super) fn draw_colours<DB: Surface>(
+    inside: &Panel<DB>,
+    colours: &GrowthColours,
+    cells: &[PlacedCell],
+) -> Drawn<DB> {
+    for placed in cells {
+        if let Some(colour) = placed.cell.growth.and_then(|growth| colours.of(growth)) {
+            let (lower, upper) = corners(inside, placed);
+            let cell = Rectangle::new([lower, upper], colour.filled());
+            inside.area.draw(&cell)?;
+        }
+    }
+    Ok(())
 }
 
 fn axis(axis: &MapAxis, with_range: impl FnOnce((f64, f64)) -> Axis) -> Axis {

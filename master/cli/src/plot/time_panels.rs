@@ -12,6 +12,7 @@ use super::panel::{
     Axes, Panel, RIGHT_MARGIN, height_for_label, room_above, room_below, room_left,
 };
 use super::scale::{Scale, padded};
+use super::spread::spread;
 use super::style::{FRAME, TITLE_TEXT, curve_style, fitted, stroke, text, units};
 use super::thinning::thinned;
 use super::tiling::{PICTURE_WIDTH, check_number};
@@ -222,7 +223,7 @@ impl<'a> Layout<'a> {
         }
         let Some(index) = index else { return Ok(()) };
         let offset = (index as f64 + 0.5) / self.names.len() as f64;
-        for centre in spread(&places, inside.width, offset) {
+        for centre in spread(&places, inside.width, MARKERS_PER_SERIES, offset) {
             marker.draw(&inside.area, centre, units(MARKER_RADIUS), colour)?;
         }
         Ok(())
@@ -237,19 +238,6 @@ fn names_to_tell_apart(plot: &TimePanels) -> Vec<&str> {
             .flat_map(|panel| &panel.series)
             .map(|series| series.name.as_str()),
     )
-}
-
-/// Some of the places, about equally far apart; `offset` moves them, so that coinciding curves stay distinguishable.
-fn spread(places: &[(i32, i32)], width: i32, offset: f64) -> impl Iterator<Item = (i32, i32)> {
-    let distance = f64::from(width) / MARKERS_PER_SERIES as f64;
-    (0..MARKERS_PER_SERIES).filter_map(move |count| {
-        let wanted = ((count as f64 + offset) * distance) as i32;
-        let next = places.partition_point(|place| place.0 < wanted);
-        places
-            .get(next)
-            .copied()
-            .filter(|place| f64::from(place.0 - wanted) < distance)
-    })
 }
 
 /// Draws the title over the middle of the area and gives back what is below it.

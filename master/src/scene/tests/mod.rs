@@ -8,6 +8,7 @@ mod overrides;
 mod properties;
 mod reference_mistakes;
 mod settings;
+mod spectrum_mistakes;
 mod stability;
 mod step_control;
 mod study_mistakes;

@@ -1,4 +1,5 @@
-//! The generalised-alpha method on velocity level (S2 Sect. 2.4, eqs. 20 to 26; Chung & Hulbert 1993, Arnold & Bruels 2007).
+//! The generalised-alpha method on velocity level (S2 Sect. 2.4, eqs. 20 to 26; Chung & Hulbert 1993, Arnold &
+//! Bruels 2007).
 //!
 //! ```text
 //! M a_{i+1} = f(t_{i+1}, q_{i+1}, v_{i+1}) + W lambda                    (20)
@@ -7,8 +8,8 @@
 //! v_{i+1} = v_i + dt [(1 - gamma) A_i + gamma A_{i+1}]                   (23)
 //! ```
 //!
-//! `gamma = 1/2 - alpha_m + alpha_f` (98) and `beta = (1 - alpha_m + alpha_f)^2 / 4` (102) give order 2 and the strongest
-//! damping of high frequencies. Unconditionally stable for `alpha_m <= alpha_f <= 1/2` (100).
+//! `gamma = 1/2 - alpha_m + alpha_f` (98) and `beta = (1 - alpha_m + alpha_f)^2 / 4` (102) give order 2 and the
+//! strongest damping of high frequencies. Unconditionally stable for `alpha_m <= alpha_f <= 1/2` (100).
 
 use super::{Outcome, Scheme, SchemeError};
 use crate::nonsmooth::matrix::add_scaled;
@@ -36,13 +37,19 @@ impl GeneralizedAlpha {
         if !is_allowed {
             return Err(SchemeError::Alpha { alpha_m, alpha_f });
         }
-        Ok(Self {
+        Ok(Self::unrestricted(alpha_m, alpha_f, mechanics))
+    }
+
+    /// With any parameters, to study what happens outside of (100): high frequencies grow there, or a step has no
+    /// solution.
+    pub fn unrestricted(alpha_m: f64, alpha_f: f64, mechanics: &Mechanics) -> Self {
+        Self {
             alpha_m,
             alpha_f,
             beta: 0.25 * (1.0 - alpha_m + alpha_f).powi(2),
             gamma: 0.5 - alpha_m + alpha_f,
             stages: Stages::new(mechanics, 1),
-        })
+        }
     }
 
     /// With the spectral radius `rho_inf` for infinite frequency and the least damping of low ones (26).

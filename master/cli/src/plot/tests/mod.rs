@@ -4,6 +4,7 @@ mod charts;
 mod errors;
 mod odd_data;
 mod read;
+mod spectra;
 
 use std::path::PathBuf;
 
