@@ -2,6 +2,7 @@
 
 use super::contact::{ContactSettings, ContactSolver, Law, Problem, Solved, SolverKind, Unsolved};
 use super::matrix::{BorderedBand, Factors, Shape, Singular, dot};
+use super::stages::MOST_STAGES;
 use super::state::Drive;
 use super::system::{Contact, Instant, MechanicalSystem, Side, rows};
 
@@ -143,6 +144,11 @@ impl Mechanics {
             *next += contact.rows();
             Some(start)
         });
+        // Schemes have two stages at most.
+        let most = MOST_STAGES * rows;
+        let (mut problem, mut solver) = (Problem::default(), ContactSolver::default());
+        problem.reserve(most);
+        solver.reserve(most);
         Self {
             starts: starts.collect(),
             shape,
@@ -150,14 +156,14 @@ impl Mechanics {
             inputs: vec![0.0; inputs],
             settings,
             counters: Counters::default(),
-            solver: ContactSolver::default(),
-            problem: Problem::default(),
-            active_rows: Vec::new(),
-            unknowns: Vec::new(),
+            solver,
+            problem,
+            active_rows: Vec::with_capacity(most),
+            unknowns: Vec::with_capacity(most),
             mass: BorderedBand::zeros(shape),
             factors: Factors::new(shape),
             directions: vec![0.0; rows * shape.order()],
-            responses: Vec::new(),
+            responses: Vec::with_capacity(rows * shape.order()),
             contacts,
             system,
         }

@@ -99,7 +99,7 @@ impl Stages {
             factors: Factors::new(shape.staged(count)),
             force: row(),
             staged: vec![0.0; count * n],
-            responses: Vec::new(),
+            responses: Vec::with_capacity(count * mechanics.rows() * count * n),
             size: 0.0,
         }
     }
@@ -205,7 +205,10 @@ impl Stages {
                 self.staged[count * i + r] += v;
             }
         }
-        self.size = self.staged.iter().fold(self.size, |size, v| v.abs().max(size));
+        self.size = self
+            .staged
+            .iter()
+            .fold(self.size, |size, v| v.abs().max(size));
         Ok(())
     }
 

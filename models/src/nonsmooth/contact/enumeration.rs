@@ -45,6 +45,15 @@ pub struct Enumeration {
 }
 
 impl Enumeration {
+    /// Takes memory for this many rows.
+    pub fn reserve(&mut self, rows: usize) {
+        self.states.reserve(rows);
+        self.matrix.reserve(rows * rows);
+        self.trial.reserve(rows);
+        self.velocities.reserve(rows);
+        self.least_norm.reserve(rows);
+    }
+
     /// Looks for all solutions; the first one found goes to `x` if `x` is none itself.
     pub fn solve(&mut self, problem: &Problem, x: &mut [f64]) -> Count {
         let choices = |law: &Law| match law {

@@ -21,6 +21,15 @@ pub struct GaussNewton {
 }
 
 impl GaussNewton {
+    /// Takes memory for this many rows.
+    pub fn reserve(&mut self, rows: usize) {
+        self.gradient.reserve(rows * rows);
+        self.kept.reserve(rows * rows);
+        self.pivots.reserve(rows);
+        self.step.reserve(rows);
+        self.least_norm.reserve(rows);
+    }
+
     /// Improves `x` until the residual (m/s) is at most `tolerance` times the scale of the problem; the iterations that
     /// it took, or `None` if it does not get there.
     pub fn solve(

@@ -18,6 +18,13 @@ pub struct LeastNorm {
 }
 
 impl LeastNorm {
+    /// Takes memory for this many unknowns.
+    pub fn reserve(&mut self, n: usize) {
+        self.columns.reserve(n * n);
+        self.right.reserve(n * n);
+        self.solution.reserve(n);
+    }
+
     /// Solves `A x = b` with `A` row by row in the sense of least squares and least norm; `b` becomes `x`.
     pub fn solve(&mut self, n: usize, a: &[f64], b: &mut [f64]) {
         self.columns.clear();

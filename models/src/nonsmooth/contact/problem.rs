@@ -47,6 +47,13 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// Takes memory for this many rows.
+    pub fn reserve(&mut self, rows: usize) {
+        self.laws.reserve(rows);
+        self.free.reserve(rows);
+        self.delassus.reserve(rows * rows);
+    }
+
     /// Rows.
     pub fn len(&self) -> usize {
         self.laws.len()

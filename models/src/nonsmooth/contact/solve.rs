@@ -120,6 +120,13 @@ pub struct ContactSolver {
 }
 
 impl ContactSolver {
+    /// Takes memory for problems of this many rows, so that a first contact takes none.
+    pub fn reserve(&mut self, rows: usize) {
+        self.gauss_newton.reserve(rows);
+        self.enumeration.reserve(rows);
+        self.trial.reserve(rows);
+    }
+
     /// Forces `x` of a problem, from those that `x` has at the call (warm start).
     ///
     /// # Errors
