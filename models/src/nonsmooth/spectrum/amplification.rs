@@ -13,9 +13,6 @@ use crate::nonsmooth::state::{Drive, State, Step};
 /// Largest step over period: beyond it the square of `Omega` leaves no digits.
 const MOST_STEP_OVER_PERIOD: f64 = 1e9;
 
-/// Below this share, the difference of two responses is rounding.
-const ROUNDING: f64 = 1e-14;
-
 /// All variables behind a step, in the unit of `q`.
 type Response = [f64; Variable::ALL.len()];
 
@@ -153,36 +150,10 @@ impl Probe {
         self.amplification(dt_over_period)?.spectrum()
     }
 
-    /// What a step makes of the state that is 1 in one variable.
-    ///
-    /// The iteration of a step compares changes of velocities with their size, and does not end where the
-    /// velocities are nothing but rounding. Then another unit state is added, and what a step makes of that is
-    /// taken off again.
-    fn response(&mut self, variable: Variable, dt: f64) -> Result<Response, StepError> {
-        match self.respond(&[variable], dt) {
-            Err(StepError::NotConverged { .. }) => {}
-            response => return response,
-        }
-        let other = match variable {
-            Variable::Velocity => Variable::Coordinate,
-            _ => Variable::Velocity,
-        };
-        let (both, alone) = (
-            self.respond(&[variable, other], dt)?,
-            self.respond(&[other], dt)?,
-        );
-        Ok(std::array::from_fn(|row| {
-            let difference = both[row] - alone[row];
-            let is_rounding = difference.abs() <= ROUNDING * alone[row].abs();
-            if is_rounding { 0.0 } else { difference }
-        }))
-    }
-
-    /// What a step makes of the state that is 1 in some variables and 0 in the others, all of them in the unit of
-    /// `q`.
-    fn respond(&mut self, ones: &[Variable], dt: f64) -> Result<Response, StepError> {
+    /// What a step makes of the state that is 1 in one variable and 0 in the others, all of them in the unit of `q`.
+    fn response(&mut self, one: Variable, dt: f64) -> Result<Response, StepError> {
         for variable in Variable::ALL {
-            let value = if ones.contains(&variable) {
+            let value = if variable == one {
                 1.0 / variable.scale(dt)
             } else {
                 0.0
