@@ -10,6 +10,7 @@ mod golden;
 mod golden_flexible;
 mod golden_masses;
 mod golden_rigid;
+mod mistakes;
 mod model_problem;
 mod quadrature;
 mod rod;

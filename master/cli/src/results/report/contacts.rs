@@ -8,35 +8,41 @@ use linchpin_master::results::{ContactStatistics, Statistics};
 pub fn write(statistics: &Statistics, text: &mut String) -> std::fmt::Result {
     for subsystem in &statistics.subsystems {
         if let Some(contacts) = &subsystem.contacts {
-            write_impacts(&subsystem.subsystem, contacts, text)?;
-            write_problems(contacts, text)?;
+            writeln!(
+                text,
+                "  contacts of {:<14} {:>6} problems, residual at most {:.1e} m/s",
+                subsystem.subsystem, contacts.problems, contacts.residual
+            )?;
+            write_impacts(contacts, text)?;
+            write_warnings(contacts, text)?;
         }
     }
     Ok(())
 }
 
-fn write_impacts(name: &str, contacts: &ContactStatistics, text: &mut String) -> std::fmt::Result {
-    write!(text, "  impacts of {name:<15} {:>6}", contacts.impacts)?;
+fn write_impacts(contacts: &ContactStatistics, text: &mut String) -> std::fmt::Result {
     if let Some(first) = contacts.first_impact {
-        write!(
+        writeln!(
             text,
-            "   first at t = {first:.6e} s, impulses {:.4e} N s",
-            contacts.impulse
+            "    impacts {}, the first at t = {first:.6e} s, impulses {:.4e} N s together",
+            contacts.impacts, contacts.impulse
         )?;
     }
-    writeln!(text, "   penetration {:.1e} m", contacts.penetration)
+    if contacts.penetration > 0.0 {
+        writeln!(
+            text,
+            "    penetration {:.1e} m at most",
+            contacts.penetration
+        )?;
+    }
+    Ok(())
 }
 
-fn write_problems(contacts: &ContactStatistics, text: &mut String) -> std::fmt::Result {
-    writeln!(
-        text,
-        "    contact problems {}, residual at most {:.1e} m/s",
-        contacts.problems, contacts.residual
-    )?;
+fn write_warnings(contacts: &ContactStatistics, text: &mut String) -> std::fmt::Result {
     if contacts.robust > 0 {
         writeln!(
             text,
-            "    in {} of them the first solver failed and a robust one took over",
+            "    in {} of the problems the first solver failed and a robust one took over",
             contacts.robust
         )?;
     }
