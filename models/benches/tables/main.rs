@@ -9,6 +9,7 @@
 
 mod costs;
 mod errors;
+mod rod;
 mod runs;
 mod siconos;
 mod speed;
@@ -30,6 +31,7 @@ fn main() {
         costs::tables(),
         errors::tables(),
         speed::table(),
+        rod::tables(),
     ];
     let text = parts.join("\n");
     println!("{text}");
