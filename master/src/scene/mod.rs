@@ -45,8 +45,8 @@ pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, Increment, Index,
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
-    Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
-    Variant,
+    Over, Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl,
+    Subsystem, Variant,
 };
 pub(crate) use stability_rules::highest_stable_degree;
 pub use stability_rules::{Warning, warnings};

@@ -3,6 +3,7 @@
 mod charts;
 mod errors;
 mod odd_data;
+mod portraits;
 mod read;
 
 use std::path::PathBuf;
@@ -64,6 +65,7 @@ fn over_time(panels: Vec<TimePanel>) -> TimePanels {
         title: None,
         time_label: "t (s)".into(),
         panels,
+        ..TimePanels::default()
     }
 }
 
