@@ -1,6 +1,7 @@
 //! Mechanical systems as subsystems behind the worker protocol.
 //!
-//! * [`face`]: what a master sees of a system; [`observed`]: the outputs that a system has of its own;
+//! * [`face`]: what a master sees of a system; [`observed`]: the outputs that a system has of its own; [`shown`]: markers for
+//!   pictures;
 //! * [`options`]: schemes as solvers of a scene;
 //! * [`run`]: a system in motion: steps, outputs, snapshots, statistics;
 //! * [`keys`], [`model`]: parameters and descriptions; [`slider_crank`], [`masses`]: the models.
@@ -12,4 +13,5 @@ pub mod model;
 pub mod observed;
 pub mod options;
 pub mod run;
+pub mod shown;
 pub mod slider_crank;

@@ -2,6 +2,7 @@
 
 use linchpin_proto::v1;
 
+use super::shown::Shown;
 use crate::mechanics::describe::output;
 use crate::mechanics::markers::PLANAR;
 use crate::nonsmooth::system::{Contact, Side};
@@ -42,8 +43,29 @@ pub struct FaceMarker {
     pub name: String,
     /// Names of the inputs that take its load: force in x and y, moment; empty if it takes none.
     pub load: Vec<String>,
-    /// Whether velocities and accelerations are offered; a marker without is for pictures.
-    pub has_rates: bool,
+    /// Where it is if it is for pictures: such a marker has no velocity and no acceleration. The system itself moves the
+    /// others, which come first.
+    pub shown: Option<Shown>,
+}
+
+impl FaceMarker {
+    /// A marker that the system moves.
+    pub fn moving(name: &str, load: &[&str]) -> Self {
+        Self {
+            name: name.to_owned(),
+            load: load.iter().map(|&input| input.to_owned()).collect(),
+            shown: None,
+        }
+    }
+
+    /// A marker for pictures.
+    pub fn for_pictures(name: String, shown: Shown) -> Self {
+        Self {
+            name,
+            load: Vec::new(),
+            shown: Some(shown),
+        }
+    }
 }
 
 /// All of a system.
@@ -83,6 +105,8 @@ pub enum Output {
     Gap(usize),
     /// Contact force of a row.
     Force(usize),
+    /// Normal impulses of a contact in the last step of the subsystem.
+    ContactImpulse(usize),
     /// Energy.
     Energy,
     /// Impacts in the last step of the subsystem.
@@ -109,7 +133,7 @@ impl Face {
             all.push((Output::Velocity(place), output(name, unit, &what)));
         }
         for (marker, own) in self.markers.iter().enumerate() {
-            let count = if own.has_rates { 9 } else { 3 };
+            let count = if own.shown.is_none() { 9 } else { 3 };
             for (number, variable) in PLANAR.outputs(&own.name).take(count).enumerate() {
                 let place = Output::Marker {
                     marker,
@@ -153,6 +177,14 @@ impl Face {
                     &format!("friction force at {name} between impacts, along growing slip"),
                 );
                 all.push((Output::Force(row + 1 + tangent), friction));
+            }
+            if contact.side == Side::Unilateral {
+                let impulse = output(
+                    &format!("impulse_{name}"),
+                    "N s",
+                    &format!("sum of the normal impulses at {name} in the last macro step"),
+                );
+                all.push((Output::ContactImpulse(place), impulse));
             }
             row += contact.rows();
         }
@@ -199,7 +231,7 @@ impl Face {
     pub fn markers(&self) -> Vec<v1::Marker> {
         let described = |own: &FaceMarker| {
             let mut marker = PLANAR.marker(&own.name);
-            if !own.has_rates {
+            if own.shown.is_some() {
                 marker.velocity.clear();
                 marker.acceleration.clear();
             }

@@ -10,6 +10,7 @@ use linchpin_worker::{Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem}
 use super::face::{Face, Output};
 use super::observed::{Motion, Observed, PointMotion};
 use super::options::choose;
+use super::shown::Shown;
 use crate::mechanics::fixed::parts;
 use crate::nonsmooth::mechanics::StepError;
 use crate::nonsmooth::mixed::{ContactLog, Integrator};
@@ -23,12 +24,16 @@ pub struct Run<S> {
     system: Arc<S>,
     integrator: Integrator,
     outputs: Vec<Output>,
+    /// Where markers for pictures are, for each marker.
+    shown: Vec<Option<Shown>>,
     /// Longest internal step (s).
     step: f64,
     /// Whether the accelerations at the start are known: they depend on the first inputs.
     has_started: bool,
     /// What happened in the last macro step.
     last: Interlude,
+    /// Normal impulses of each contact in it (N s).
+    impulses: Vec<f64>,
     /// Inputs at an instant, as polynomials.
     held: Inputs,
     accelerations: Vec<f64>,
@@ -75,10 +80,13 @@ impl<S: Observed + 'static> Run<S> {
             field: "solver".to_owned(),
             reason: error.to_string(),
         })?;
+        let contacts = system.contacts().len();
         Ok(Self {
             outputs: outputs.into_iter().map(|(output, _)| output).collect(),
+            shown: face.markers.iter().map(|marker| marker.shown).collect(),
             accelerations: vec![0.0; integrator.state.q.len()],
-            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS],
+            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts],
+            impulses: vec![0.0; contacts],
             held: Inputs::constant(&defaults),
             last: Interlude {
                 impacts: 0.0,
@@ -111,6 +119,7 @@ impl<S: Observed + 'static> Run<S> {
         }
         let before = self.integrator.log;
         let mut first_impact = None;
+        self.impulses.fill(0.0);
         for part in 0..parts {
             // Not added up, so that the last step ends where the interval does.
             self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
@@ -120,6 +129,10 @@ impl<S: Observed + 'static> Run<S> {
             stepped.map_err(|error| failed(t, error))?;
             if self.integrator.log.impacts > impacts {
                 first_impact.get_or_insert(t);
+                for (place, impulse) in self.impulses.iter_mut().enumerate() {
+                    let row = self.integrator.mechanics.first_row(place);
+                    *impulse += self.integrator.state.impulses[row];
+                }
             }
         }
         let log = self.integrator.log;
@@ -145,16 +158,21 @@ impl<S: Observed + 'static> Run<S> {
             time,
             impulse,
         ]);
+        put(&self.impulses);
     }
 
     fn recall(&mut self) {
-        if let &[has_started, impacts, time, impulse] = self.integrator.recall(&self.kept) {
+        let own = self.integrator.recall(&self.kept);
+        if let &[has_started, impacts, time, impulse, ref impulses @ ..] = own
+            && impulses.len() == self.impulses.len()
+        {
             self.has_started = has_started == 1.0;
             self.last = Interlude {
                 impacts,
                 time,
                 impulse,
             };
+            self.impulses.copy_from_slice(impulses);
         }
     }
 
@@ -178,14 +196,14 @@ impl<S: Observed + 'static> Run<S> {
 
     fn marker(&self, marker: usize) -> PointMotion {
         let state = &self.integrator.state;
-        self.system.marker(
-            marker,
-            Motion {
-                q: &state.q,
-                v: &state.v,
-                a: &self.accelerations,
-            },
-        )
+        let motion = Motion {
+            q: &state.q,
+            v: &state.v,
+            a: &self.accelerations,
+        };
+        let own = |marker| self.system.marker(marker, motion);
+        let shown = self.shown.get(marker).copied().flatten();
+        shown.map_or_else(|| own(marker), |shown| shown.motion(own))
     }
 
     fn value(&mut self, output: Output) -> f64 {
@@ -209,6 +227,7 @@ impl<S: Observed + 'static> Run<S> {
             }
             Output::Gap(place) => self.integrator.gaps()[place],
             Output::Force(row) => state.forces[row],
+            Output::ContactImpulse(place) => self.impulses[place],
             Output::Energy => self.integrator.energy(),
             Output::Impacts => self.last.impacts,
             Output::ImpactTime => self.last.time,

@@ -10,6 +10,7 @@ use super::face::{Coordinate, Face, FaceMarker};
 use super::keys::{Key, Parameters, number, text};
 use super::model::{describe, started};
 use super::observed::{Motion, Observed, PointMotion};
+use super::shown::SliderPicture;
 use crate::mechanics::describe::{input, output};
 use crate::nonsmooth::systems::notch::{CornerLaw, Notch};
 use crate::nonsmooth::systems::rigid_slider_crank::{Guide, Mechanism, RigidSliderCrank};
@@ -83,6 +84,12 @@ const KEYS: &[Key] = &[
         GUIDES,
         "\"clearance\" (the default): corners and walls; \"bilateral\": y = 0 and angle 0 without clearance; \"free\": no notch",
     ),
+    number(
+        "magnification",
+        "1",
+        1.0,
+        "markers that are for pictures show clearance, height and angle of the slider so many times larger, 1 or greater",
+    ),
     number("theta1_0", "rad", 0.0, "angle of the crank at the start"),
     number("theta2_0", "rad", 0.0, "angle of the rod at the start"),
     number("theta3_0", "rad", 0.0, "angle of the slider at the start"),
@@ -91,8 +98,8 @@ const KEYS: &[Key] = &[
     number("omega3_0", "rad/s", 0.0, "rate of the slider at the start"),
 ];
 
-/// Corners in the order in which a pencil draws the slider.
-const CORNERS: [usize; 4] = [0, 1, 3, 2];
+/// Number of the marker at the centre of the slider.
+const SLIDER: usize = 2;
 
 impl Model for SliderCrank {
     fn describe(&self) -> v1::Model {
@@ -176,22 +183,12 @@ fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
         Guide::Bilateral { .. } => &["across", "turn"],
         Guide::Free => &[],
     };
-    let picture = |name: String| FaceMarker {
-        name,
-        load: Vec::new(),
-        has_rates: false,
-    };
-    let moving = |name: &str, load: &[&str]| FaceMarker {
-        name: name.to_owned(),
-        load: load.iter().map(|&name| name.to_owned()).collect(),
-        has_rates: true,
-    };
     let mut markers = vec![
-        moving("crank", &["crank_fx", "crank_fy", "torque"]),
-        moving("pin", &[]),
-        moving("slider", &[]),
+        FaceMarker::moving("crank", &["crank_fx", "crank_fy", "torque"]),
+        FaceMarker::moving("pin", &[]),
+        FaceMarker::moving("slider", &[]),
     ];
-    markers.extend(CORNERS.map(|corner| picture(format!("corner{}", corner + 1))));
+    markers.extend(picture_markers(parameters)?);
     Ok(Face {
         coordinates: vec![
             Coordinate::angle("theta1", "omega1", "angle of the crank from the x axis"),
@@ -225,6 +222,32 @@ fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
     })
 }
 
+fn picture_markers(parameters: &Parameters<'_>) -> Result<Vec<FaceMarker>, SetupError> {
+    let Mechanism { lengths, notch, .. } = mechanism(parameters)?;
+    let ([l1, l2], ahead) = (lengths, 2.0 * notch.half_length);
+    let at_least_1 = |value: f64| value >= 1.0;
+    let picture = SliderPicture {
+        notch,
+        centre: SLIDER,
+        magnification: parameters.number_in(
+            "magnification",
+            "it must be 1 or greater",
+            at_least_1,
+        )?,
+        walls: [l2 - l1 - ahead, l1 + l2 + ahead],
+    };
+    let mut markers: Vec<FaceMarker> = picture.slider().collect();
+    match guide(parameters)? {
+        Guide::Clearance(_) => {
+            markers.extend(picture.walls(notch.clearance));
+            markers.extend(picture.corners());
+        }
+        Guide::Bilateral { .. } => markers.extend(picture.walls(0.0)),
+        Guide::Free => {}
+    }
+    Ok(markers)
+}
+
 impl Observed for RigidSliderCrank {
     fn own_output(&self, _output: usize, motion: Motion<'_>) -> f64 {
         let clearance = self.mechanism().notch.clearance;
@@ -239,16 +262,8 @@ impl Observed for RigidSliderCrank {
         match marker {
             0 => with_angle(still, turn(0)),
             1 => with_angle(along(still, l1, turn(0)), turn(1)),
-            2 => with_angle(along(along(still, l1, turn(0)), l2, turn(1)), turn(2)),
-            _ => {
-                let centre = along(along(still, l1, turn(0)), l2, turn(1));
-                let corner = CORNERS.get(marker - 3).copied().unwrap_or(0);
-                let [x, y] = self.mechanism().notch.corner(corner, motion.q[2]);
-                let mut at = with_angle(centre, turn(2));
-                at[0][0] += x;
-                at[0][1] += y;
-                at
-            }
+            SLIDER => with_angle(along(along(still, l1, turn(0)), l2, turn(1)), turn(2)),
+            _ => still,
         }
     }
 }

@@ -63,14 +63,12 @@ impl Notch {
         std::array::from_fn(|k| height - UPPER[k] * (y + ALONG[k] * self.half_length * sin))
     }
 
-    /// A corner from the centre of the slider, in inertial axes (m).
-    pub fn corner(&self, corner: usize, theta: f64) -> [f64; 2] {
-        let (sin, cos) = theta.sin_cos();
-        let (along, up) = (
+    /// A corner in the axes of the slider, from its centre (m).
+    pub fn corner(&self, corner: usize) -> [f64; 2] {
+        [
             ALONG[corner] * self.half_length,
             UPPER[corner] * self.half_height,
-        );
-        [along * cos - up * sin, along * sin + up * cos]
+        ]
     }
 
     /// `dg_N/dtheta`; `dg_N/dy` is [`Notch::by_height`].
