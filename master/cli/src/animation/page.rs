@@ -121,9 +121,28 @@ impl Page<'_> {
             }
             None => "",
         };
+        let contacts = match (self.motion.contacts.is_empty(), self.motion.largest_force()) {
+            (true, _) => String::new(),
+            (false, 0.0) => " Rings that widen are impacts.".to_owned(),
+            (false, largest) => format!(
+                " Filled dots are closed contacts: their area grows with the normal force, at most {} N. \
+                 Rings that widen are impacts.",
+                three_digits(largest)
+            ),
+        };
         format!(
-            "{thinned} Markers of one subsystem are joined by lines in the order of its description; shapes are not known.{lanes}"
+            "{thinned} Markers of one subsystem are joined by lines in the order of its description, numbered ones to \
+             those of the same name; shapes are not known.{lanes}{contacts}"
         )
+    }
+}
+
+fn three_digits(value: f64) -> String {
+    if (1e-3..1e5).contains(&value) {
+        let places = (2.0 - value.log10().floor()).max(0.0) as usize;
+        format!("{value:.places$}")
+    } else {
+        format!("{value:.2e}")
     }
 }
 
