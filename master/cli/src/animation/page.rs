@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Write};
 use super::film::Film;
 use super::motion::Motion;
 use super::picture::Picture;
+use super::roles::Role;
 use super::scenery::Scenery;
 use super::stage::Stage;
 use super::view::View;
@@ -130,9 +131,14 @@ impl Page<'_> {
                 three_digits(largest)
             ),
         };
+        let mut markers = self.motion.markers.iter();
+        let outlines = match markers.any(|marker| marker.role == Role::Outline) {
+            true => ", numbered ones to those of the same name",
+            false => "",
+        };
         format!(
-            "{thinned} Markers of one subsystem are joined by lines in the order of its description, numbered ones to \
-             those of the same name; shapes are not known.{lanes}{contacts}"
+            "{thinned} Markers of one subsystem are joined by lines in the order of its description{outlines}; \
+             shapes are not known.{lanes}{contacts}"
         )
     }
 }
