@@ -2,6 +2,7 @@
 
 use linchpin_proto::v1::{self, MarkerKind};
 
+use super::contacts::{self, RecordedContact};
 use crate::coupling::layout::MarkedJoint;
 use crate::scene::{self, Scene};
 
@@ -14,6 +15,8 @@ pub struct Mechanism {
     pub markers: Vec<RecordedMarker>,
     /// Joints in the order of the scene.
     pub joints: Vec<RecordedJoint>,
+    /// Markers that are contacts, in the order of the markers.
+    pub contacts: Vec<RecordedContact>,
 }
 
 /// A marker and the result columns of its position.
@@ -70,7 +73,12 @@ impl Mechanism {
                 points: written.geometry.points.each_ref().map(point),
             })
         };
+        let contact = |(place, marker): (usize, &RecordedMarker)| {
+            contacts::of_marker(columns, &subsystems[marker.subsystem], place, &marker.name)
+        };
+        let contacts = markers.iter().enumerate().filter_map(contact).collect();
         Self {
+            contacts,
             joints: scene.joints.iter().zip(joints).filter_map(joint).collect(),
             subsystems,
             markers,

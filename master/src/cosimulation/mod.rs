@@ -1,6 +1,7 @@
 //! A run from start to end: the macro step, told by one function.
 
 mod closed;
+mod contacts;
 mod corrected;
 mod degrees;
 mod geometry;
@@ -26,6 +27,7 @@ use std::time::{Duration, Instant};
 
 use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
 
+pub use contacts::RecordedContact;
 pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use subsystem::{Ahead, Subsystem};
 pub use tie::multiplier_columns;

@@ -52,7 +52,8 @@ pub struct Options {
     pub step_lengths: Option<Vec<f64>>,
     /// Degrees of the polynomials over every macro step, as a run in which they follow the estimates has found them.
     pub degrees: Option<Vec<StepDegrees>>,
-    /// Record the positions of all markers, also of those that no joint holds: a picture of the mechanism needs them.
+    /// Record the positions of all markers, also of those that no joint holds, and what contacts do: a picture of the
+    /// mechanism needs them.
     pub record_markers: bool,
 }
 

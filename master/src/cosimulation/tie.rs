@@ -6,6 +6,7 @@ use std::sync::Arc;
 use linchpin_proto::v1::{self, MarkerKind};
 use linchpin_proto::version;
 
+use super::contacts;
 use super::geometry::law_of;
 use super::refusal::refuse_setup;
 use super::{Subsystem, at_start};
@@ -313,16 +314,18 @@ pub(super) fn recorded_outputs(
     Ok(recorded)
 }
 
-/// Adds the positions of all markers to the outputs to record, as far as they are not there and not in `coupling`.
+/// Adds what a picture of the moving mechanism needs to the outputs to record, as far as it is not there and not in
+/// `coupling`: the positions of all markers, and what their contacts do.
 pub(super) fn record_markers(
     models: &[v1::Model],
     coupling: &[Vec<String>],
     recorded: &mut [Vec<String>],
 ) {
     for (number, model) in models.iter().enumerate() {
-        for output in model.markers.iter().flat_map(|marker| &marker.position) {
-            if !coupling[number].contains(output) && !recorded[number].contains(output) {
-                recorded[number].push(output.clone());
+        let positions = model.markers.iter().flat_map(|marker| &marker.position);
+        for output in positions.cloned().chain(contacts::outputs(model)) {
+            if !coupling[number].contains(&output) && !recorded[number].contains(&output) {
+                recorded[number].push(output);
             }
         }
     }

@@ -46,8 +46,8 @@ pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, Increment, Index,
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
-    Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl, Subsystem,
-    Variant,
+    Over, Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl,
+    Subsystem, Variant,
 };
 pub use spectrum::{
     RegionPoint, SpectrumCurve, SpectrumFile, SpectrumRegion, SpectrumScheme, is_spectrum,

@@ -5,7 +5,7 @@ use super::names::Registry;
 use super::reader::{Field, Problems, Section};
 use super::reference::read_variable;
 use super::resolve::collect;
-use super::resolved::{Output, Panel};
+use super::resolved::{Output, Over, Panel};
 use super::step_control::read_step;
 
 const VARIABLES: &str = "a list of outputs such as [\"mass1.v\"]";
@@ -63,22 +63,43 @@ pub(super) fn read(
 
 fn read_panel(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Panel> {
     let section = field.section(problems)?;
-    section.allow_only(&["label", "columns"], problems);
+    section.allow_only(&["label", "columns", "over", "over_label"], problems);
     let label = section
         .require("label", "label = \"angle in rad\"", problems)
         .and_then(|field| field.text(problems));
     let columns = section
         .require("columns", "columns = [\"link1.angle\"]", problems)
         .and_then(|field| field.texts(COLUMNS, problems));
-    let sum = |field: &Field<'_>| {
-        let terms = field.text(problems)?.split('+');
-        Some(terms.map(|term| term.trim().to_owned()).collect())
-    };
-    let curves = columns.and_then(|fields| collect(&fields, sum));
+    let curves = columns.and_then(|fields| collect(&fields, |field| read_sum(field, problems)));
+    let over = read_over(&section, problems);
     Some(Panel {
         label: label?.to_owned(),
         curves: curves?,
+        over: over?,
     })
+}
+
+/// The outer option is that of a mistake.
+fn read_over(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Option<Over>> {
+    let label = match section.get("over_label") {
+        Some(field) => Some(field.text(problems)?),
+        None => None,
+    };
+    let column = match label {
+        Some(_) => Some(section.require("over", "over = \"link1.angle\"", problems)?),
+        None => section.get("over"),
+    };
+    let Some(column) = column else {
+        return Some(None);
+    };
+    let column = read_sum(&column, problems)?;
+    let label = label.map_or_else(|| column.join(" + "), str::to_owned);
+    Some(Some(Over { column, label }))
+}
+
+fn read_sum(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<String>> {
+    let terms = field.text(problems)?.split('+');
+    Some(terms.map(|term| term.trim().to_owned()).collect())
 }
 
 fn check_repeated(items: &[Field<'_>], problems: &mut Problems<'_>) {

@@ -124,6 +124,17 @@ pub struct Panel {
     pub label: String,
     /// Its curves; each is the sum of one or more result columns.
     pub curves: Vec<Vec<String>>,
+    /// What they are shown over; absent: the time.
+    pub over: Option<Over>,
+}
+
+/// The x axis of a panel whose curves are not over the time.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Over {
+    /// The sum of one or more result columns.
+    pub column: Vec<String>,
+    /// Label of the axis, with the unit; default: the columns.
+    pub label: String,
 }
 
 /// How a run treats its workers.

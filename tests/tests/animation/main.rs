@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod impacts;
 mod page;
 
 use std::sync::Arc;

@@ -3,8 +3,10 @@
   const film = JSON.parse(document.getElementById("film").textContent);
   const picture = document.getElementById("picture");
   const clock = document.getElementById("time");
-  const [scenery, traces, bodies, markers, joints] =
-    ["scenery", "traces", "bodies", "markers", "joints"].map((id) => document.getElementById(id));
+  const [scenery, traces, bodies, markers, joints, contacts] =
+    ["scenery", "traces", "bodies", "markers", "joints", "contacts"].map((id) => document.getElementById(id));
+  // The places of those that have elements among the traces and the markers.
+  const framed = film.markers.map((_, number) => number).filter((number) => film.markers[number].framed);
   const frames = film.t.length;
   const view = film.view;
 
@@ -57,15 +59,26 @@
     circle.setAttribute("cx", at[0].toFixed(1));
     circle.setAttribute("cy", at[1].toFixed(1));
   };
+  // The strongest of the impacts that are still seen, and its age as a share of the time that it is seen.
+  const flash = (flashes, frame) => {
+    let seen = { strength: 0, age: 0 };
+    for (let past = 0; past < film.flash[2] && past <= frame; past += 1) {
+      const age = past / film.flash[2];
+      const strength = (flashes[frame - past] / 100) * (1 - age);
+      if (strength > seen.strength) seen = { strength, age };
+    }
+    return seen;
+  };
   const draw = (frame) => {
     const positions = film.markers.map((marker) => position(marker, frame));
-    film.markers.forEach((marker, number) => {
-      const group = markers.children[number];
+    framed.forEach((number, index) => {
+      const marker = film.markers[number];
+      const group = markers.children[index];
       const rotate = rotation(marker, frame);
       const lines = group.querySelectorAll("polyline");
-      marker.shape.forEach((line, index) => {
+      marker.shape.forEach((line, place) => {
         const points = line.map((own) => placed(rotate(own), positions[number]));
-        lines[index].setAttribute("points", path(points));
+        lines[place].setAttribute("points", path(points));
       });
       move(group.querySelector("circle"), place(positions[number]));
     });
@@ -78,6 +91,15 @@
       group.querySelector("polyline").setAttribute("points", path([a, ...held, b]));
       group.querySelectorAll("circle").forEach((circle, side) => move(circle, place(held[side])));
     });
+    film.contacts.forEach(({ marker, radii, flashes }, number) => {
+      const [dot, ring] = contacts.children[number].querySelectorAll("circle");
+      [dot, ring].forEach((circle) => move(circle, place(positions[marker])));
+      dot.setAttribute("r", radii[frame] / 10);
+      const { strength, age } = flash(flashes, frame);
+      const [first, last] = film.flash;
+      ring.setAttribute("r", (strength > 0 ? first + (last - first) * age : 0).toFixed(1));
+      contacts.children[number].style.setProperty("--flash", strength.toFixed(2));
+    });
     clock.textContent = `t = ${shownTime(film.t[frame])} s`;
   };
   // As many places as tell neighbouring frames apart.
@@ -85,9 +107,9 @@
   const places = Math.min(12, Math.max(0, Math.ceil(-Math.log10(duration / frames || 1)) + 1));
   const shownTime = (t) => t.toFixed(places);
 
-  const drawTraces = () => film.markers.forEach((marker, number) => {
-    const points = film.t.map((_, frame) => position(marker, frame));
-    traces.children[number].setAttribute("points", path(points));
+  const drawTraces = () => framed.forEach((number, index) => {
+    const points = film.t.map((_, frame) => position(film.markers[number], frame));
+    traces.children[index].setAttribute("points", path(points));
   });
   const drawScenery = () => {
     const lines = scenery.querySelectorAll("polyline");
@@ -173,9 +195,10 @@
   // Which traces are shown, in the entry of each subsystem.
   const entries = new Map();
   document.querySelectorAll("#legend li").forEach((entry) => entries.set(entry.textContent, entry));
-  film.markers.forEach((marker, number) => {
+  framed.forEach((number, index) => {
+    const marker = film.markers[number];
     const box = make("input", { type: "checkbox", checked: true });
-    box.addEventListener("change", () => traces.children[number].toggleAttribute("hidden", !box.checked));
+    box.addEventListener("change", () => traces.children[index].toggleAttribute("hidden", !box.checked));
     const label = make("label", { title: `path of ${marker.subsystem}.${marker.name}` }, box, ` ${marker.name}`);
     entries.get(marker.subsystem).append(label);
   });

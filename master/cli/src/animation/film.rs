@@ -6,7 +6,9 @@ use linchpin_master::cosimulation::RecordedJoint;
 use nalgebra::Vector3;
 use serde::Serialize;
 
+use super::contacts::{Contact, FLASH};
 use super::motion::{Form, Frame, Marker, Motion};
+use super::roles::{Role, joined};
 use super::scenery::Scenery;
 use super::stage::Stage;
 use super::view::View;
@@ -30,6 +32,9 @@ pub(super) struct Film<'a> {
     /// Markers of each subsystem that a line joins.
     bodies: Vec<Vec<usize>>,
     joints: Vec<JointFilm>,
+    contacts: Vec<ContactFilm>,
+    /// Of the ring that shows an impact: first and last radius in pixels, and number of frames.
+    flash: (f64, f64, usize),
     /// Times of the frames in s.
     t: Vec<f64>,
 }
@@ -43,6 +48,8 @@ struct MarkerFilm<'a> {
     numbers: usize,
     /// y of what moves along x only (m).
     lane: f64,
+    /// Whether it has a frame or a block, and a path.
+    framed: bool,
     /// Lines in the axes of the marker (m).
     shape: Vec<Vec<[f64; 3]>>,
     /// The numbers of all frames, frame by frame.
@@ -55,6 +62,16 @@ struct JointFilm {
     ends: [usize; 2],
     /// Where it holds, in their axes (m).
     points: [[f64; 3]; 2],
+}
+
+#[derive(Debug, Serialize)]
+struct ContactFilm {
+    /// Place of its marker.
+    marker: usize,
+    /// Radius of its dot in tenths of a pixel in each frame; 0 where it is open.
+    radii: Vec<u64>,
+    /// Strength of its impacts in each frame in hundredths; 0 without one.
+    flashes: Vec<u64>,
 }
 
 impl JointFilm {
@@ -77,6 +94,7 @@ impl<'a> Film<'a> {
             coordinates: marker.form.coordinates(),
             numbers: marker.form.numbers(),
             lane: stage.lane(marker),
+            framed: marker.role == Role::Framed,
             shape: as_arrays(stage.shape(marker.form)),
             motion: motion
                 .frames()
@@ -90,21 +108,33 @@ impl<'a> Film<'a> {
             view,
             scenery: view.turn.is_some().then_some(scenery),
             markers: motion.markers.iter().map(marker_film).collect(),
-            bodies: bodies(motion),
+            bodies: joined(motion)
+                .into_iter()
+                .map(|line| line.markers)
+                .collect(),
             joints: motion.joints.iter().map(JointFilm::of).collect(),
+            contacts: contacts(motion),
+            flash: FLASH,
             t: motion.frames().map(|frame| frame.t).collect(),
         }
     }
 }
 
-/// The markers of each subsystem that has several of them, in the order of its description.
-pub(super) fn bodies(motion: &Motion) -> Vec<Vec<usize>> {
-    let mut bodies = vec![Vec::new(); motion.subsystems.len()];
-    for (number, marker) in motion.markers.iter().enumerate() {
-        bodies[marker.subsystem].push(number);
-    }
-    bodies.retain(|markers| markers.len() > 1);
-    bodies
+fn contacts(motion: &Motion) -> Vec<ContactFilm> {
+    let hundredths = |strength: f64| (100.0 * strength).round() as u64;
+    let film = |(place, contact): (usize, &Contact)| ContactFilm {
+        marker: contact.marker,
+        radii: motion
+            .frames()
+            .map(|frame| (10.0 * motion.dot_radius(place, frame)).round() as u64)
+            .collect(),
+        flashes: motion
+            .flashes(contact)
+            .into_iter()
+            .map(hundredths)
+            .collect(),
+    };
+    motion.contacts.iter().enumerate().map(film).collect()
 }
 
 fn rounded<'a>(

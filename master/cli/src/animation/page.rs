@@ -5,6 +5,7 @@ use std::fmt::{self, Display, Write};
 use super::film::Film;
 use super::motion::Motion;
 use super::picture::Picture;
+use super::roles::Role;
 use super::scenery::Scenery;
 use super::stage::Stage;
 use super::view::View;
@@ -121,9 +122,33 @@ impl Page<'_> {
             }
             None => "",
         };
+        let contacts = match (self.motion.contacts.is_empty(), self.motion.largest_force()) {
+            (true, _) => String::new(),
+            (false, 0.0) => " Rings that widen are impacts.".to_owned(),
+            (false, largest) => format!(
+                " Filled dots are closed contacts: their area grows with the normal force, at most {} N. \
+                 Rings that widen are impacts.",
+                three_digits(largest)
+            ),
+        };
+        let mut markers = self.motion.markers.iter();
+        let outlines = match markers.any(|marker| marker.role == Role::Outline) {
+            true => ", numbered ones to those of the same name",
+            false => "",
+        };
         format!(
-            "{thinned} Markers of one subsystem are joined by lines in the order of its description; shapes are not known.{lanes}"
+            "{thinned} Markers of one subsystem are joined by lines in the order of its description{outlines}; \
+             shapes are not known.{lanes}{contacts}"
         )
+    }
+}
+
+fn three_digits(value: f64) -> String {
+    if (1e-3..1e5).contains(&value) {
+        let places = (2.0 - value.log10().floor()).max(0.0) as usize;
+        format!("{value:.places$}")
+    } else {
+        format!("{value:.2e}")
     }
 }
 

@@ -4,9 +4,10 @@ use std::fmt::{self, Display, Write};
 
 use nalgebra::Vector3;
 
-use super::film::bodies;
+use super::contacts::FLASH;
 use super::motion::{Frame, Marker, Motion};
 use super::page::colour_class;
+use super::roles::{Role, joined};
 use super::scenery::Scenery;
 use super::stage::Stage;
 use super::view::View;
@@ -19,8 +20,9 @@ const JOINT_RADIUS: f64 = 5.5;
 /// Where the time stands, from the right and from above, in pixels.
 const CLOCK: (f64, f64) = (12.0, 24.0);
 
-/// The picture of the first frame. The groups `scenery`, `traces`, `bodies`, `markers` and `joints` have their elements in
-/// the order of the frames' description, by which the script finds them.
+/// The picture of the first frame. The groups `scenery`, `traces`, `bodies`, `markers`, `joints` and `contacts` have
+/// their elements in the order of the frames' description, by which the script finds them; markers without a frame have
+/// none in `traces` and `markers`.
 pub(super) struct Picture<'a> {
     /// What it shows, in words.
     pub title: &'a str,
@@ -48,6 +50,7 @@ impl Display for Picture<'_> {
             self.write_bodies(f, first)?;
             self.write_markers(f, first)?;
             self.write_joints(f, first)?;
+            self.write_contacts(f, first)?;
             let (x, t) = (width - CLOCK.0, first.t);
             writeln!(
                 f,
@@ -80,7 +83,7 @@ impl Picture<'_> {
 
     fn write_traces(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, r#"<g id="traces">"#)?;
-        for marker in &self.motion.markers {
+        for marker in self.framed() {
             let path = self.motion.frames().map(|frame| self.point(marker, frame));
             let path: Vec<Vector3<f64>> = path.collect();
             let class = format!("trace {}", colour_class(marker.subsystem));
@@ -91,11 +94,14 @@ impl Picture<'_> {
 
     fn write_bodies(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
         writeln!(f, r#"<g id="bodies">"#)?;
-        for body in bodies(self.motion) {
-            let markers = body.iter().map(|&number| &self.motion.markers[number]);
+        for line in joined(self.motion) {
+            let markers = line
+                .markers
+                .iter()
+                .map(|&number| &self.motion.markers[number]);
             let points: Vec<Vector3<f64>> = markers.map(|m| self.point(m, frame)).collect();
-            let subsystem = self.motion.markers[body[0]].subsystem;
-            let class = format!("body {}", colour_class(subsystem));
+            let subsystem = self.motion.markers[line.markers[0]].subsystem;
+            let class = format!("{} {}", line.class, colour_class(subsystem));
             writeln!(f, "{}", self.polyline(&class, &points))?;
         }
         writeln!(f, "</g>")
@@ -103,7 +109,7 @@ impl Picture<'_> {
 
     fn write_markers(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
         writeln!(f, r#"<g id="markers">"#)?;
-        for marker in &self.motion.markers {
+        for marker in self.framed() {
             let pose = self.stage.pose(marker, frame);
             let subsystem = &self.motion.subsystems[marker.subsystem];
             writeln!(
@@ -137,6 +143,29 @@ impl Picture<'_> {
             writeln!(f, "{a}{b}</g>")?;
         }
         writeln!(f, "</g>")
+    }
+
+    fn write_contacts(&self, f: &mut fmt::Formatter<'_>, frame: &Frame) -> fmt::Result {
+        writeln!(f, r#"<g id="contacts">"#)?;
+        for (place, contact) in self.motion.contacts.iter().enumerate() {
+            let marker = &self.motion.markers[contact.marker];
+            let subsystem = Escaped(&self.motion.subsystems[marker.subsystem]);
+            let (name, at) = (Escaped(&marker.name), self.point(marker, frame));
+            let dot = self.dot(&at, self.motion.dot_radius(place, frame));
+            let flash = self.motion.flashes(contact).first().copied();
+            let strength = flash.unwrap_or(0.0);
+            let ring = self.dot(&at, if strength > 0.0 { FLASH.0 } else { 0.0 });
+            writeln!(
+                f,
+                r#"<g class="contact" style="--flash: {strength}"><title>{subsystem}.{name}</title>{dot}{ring}</g>"#
+            )?;
+        }
+        writeln!(f, "</g>")
+    }
+
+    fn framed(&self) -> impl Iterator<Item = &Marker> {
+        let markers = self.motion.markers.iter();
+        markers.filter(|marker| marker.role == Role::Framed)
     }
 
     fn point(&self, marker: &Marker, frame: &Frame) -> Vector3<f64> {

@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used)]
 
-use linchpin_master::cosimulation::{Mechanism, RecordedJoint, RecordedMarker};
+use linchpin_master::cosimulation::{Mechanism, RecordedContact, RecordedJoint, RecordedMarker};
 use linchpin_proto::v1::MarkerKind;
 use nalgebra::Vector3;
 use serde_json::Value;
@@ -31,6 +31,7 @@ fn mechanism(subsystems: &[&str], markers: Vec<RecordedMarker>) -> Mechanism {
         subsystems: subsystems.iter().map(|&name| name.to_owned()).collect(),
         markers,
         joints: Vec::new(),
+        contacts: Vec::new(),
     }
 }
 
@@ -231,9 +232,144 @@ fn the_page_has_every_element_of_the_script() {
     let page = page::text("rod", &moved(&one_planar(), 10, swing)).unwrap();
     let (body, script) = page.rsplit_once("<script>").unwrap();
     for id in [
-        "film", "picture", "time", "scenery", "traces", "bodies", "markers", "joints", "controls",
+        "film", "picture", "time", "scenery", "traces", "bodies", "markers", "joints", "contacts",
+        "controls",
     ] {
         assert!(script.contains(&format!("\"{id}\"")), "{id}");
         assert_eq!(body.matches(&format!("id=\"{id}\"")).count(), 1, "{id}");
+    }
+}
+
+/// Two bodies' worth of names: what is numbered is joined to its own kind, contacts to nothing.
+#[test]
+fn numbered_markers_are_outlines() {
+    let names = [
+        (0, "pin", MarkerKind::Planar),
+        (0, "wall1", MarkerKind::Planar),
+        (0, "corner1", MarkerKind::Planar),
+        (0, "rod1", MarkerKind::Planar),
+        (0, "wall2", MarkerKind::Planar),
+        (0, "corner2", MarkerKind::Planar),
+        (0, "slider", MarkerKind::Planar),
+        (0, "rod2", MarkerKind::Planar),
+        (1, "rod1", MarkerKind::Planar),
+        (1, "7", MarkerKind::Planar),
+        (1, "ball", MarkerKind::Planar),
+        (2, "mass1", MarkerKind::Scalar),
+        (2, "mass2", MarkerKind::Scalar),
+    ];
+    let markers = names.map(|(subsystem, name, kind)| marker(subsystem, name, kind, 1, 3));
+    let mut mechanism = mechanism(&["a", "b", "c"], markers.into());
+    mechanism.contacts = [2, 5, 10].map(contact).into();
+    let page = page::text("names", &moved(&mechanism, 10, |t| [t; 6])).unwrap();
+    let film = film(&page);
+    let bodies = serde_json::json!([[0, 6], [1, 4], [3, 7], [8, 9, 10], [11, 12]]);
+    assert_eq!(film["bodies"], bodies);
+    let framed: Vec<&str> = { film["markers"].as_array().unwrap().iter() }
+        .filter(|marker| marker["framed"] == true)
+        .map(|marker| marker["name"].as_str().unwrap())
+        .collect();
+    // A number alone is no word and a number, and one point is no line.
+    assert_eq!(
+        framed,
+        ["pin", "slider", "rod1", "7", "ball", "mass1", "mass2"]
+    );
+    let (picture, _) = page.split_once("</svg>").unwrap();
+    assert_eq!(picture.matches(r#"class="outline "#).count(), 2);
+    assert_eq!(picture.matches(r#"class="trace "#).count(), framed.len());
+    assert_eq!(
+        picture.matches(r#"<g class="marker "#).count(),
+        framed.len()
+    );
+    assert_eq!(picture.matches(r#"<g class="contact""#).count(), 3);
+}
+
+/// Force, impulse and number of impacts stand behind a position.
+fn contact(marker: usize) -> RecordedContact {
+    RecordedContact {
+        marker,
+        force: 4,
+        impulse: Some(5),
+        impacts: Some(6),
+    }
+}
+
+#[test]
+fn contacts_are_dots_and_impacts_flash() {
+    let mut mechanism = mechanism(&["ball"], vec![marker(0, "ball", MarkerKind::Planar, 1, 3)]);
+    mechanism.contacts = vec![contact(0)];
+    // Pressed with 2 N for 0.3 s, and an impact at 0.7 s.
+    let at = |t: f64| {
+        let force = if t < 0.35 { 2.0 } else { 0.0 };
+        let impulse = if (t - 0.7).abs() < 0.01 { 0.4 } else { 0.0 };
+        [0.1, t, 0.0, force, impulse, f64::from(impulse > 0.0)]
+    };
+    let page = page::text("ball", &moved(&mechanism, 10, at)).unwrap();
+    let film = film(&page);
+    let only = &film["contacts"][0];
+    let expected = [110, 110, 110, 110, 0, 0, 0, 0, 0, 0, 0];
+    assert_eq!(only["radii"], serde_json::json!(expected));
+    assert_eq!(
+        only["flashes"],
+        serde_json::json!([0, 0, 0, 0, 0, 0, 0, 100, 0, 0, 0])
+    );
+    // Without scripting as well: a filled dot, no ring.
+    let (_, group) = page.split_once(r#"<g id="contacts">"#).unwrap();
+    let (group, _) = group.split_once("</svg>").unwrap();
+    assert!(
+        group.contains(r#"r="11"/>"#) && group.contains(r#"r="0"/>"#),
+        "{group}"
+    );
+    assert!(page.contains("at most 2.00 N"));
+}
+
+/// Where only the number of impacts is known, they are those of the contacts that are closed, or of any.
+#[test]
+fn impacts_of_a_subsystem_are_those_of_closed_contacts() {
+    let markers = ["left", "right"].map(|name| marker(0, name, MarkerKind::Planar, 1, 3));
+    let mut mechanism = mechanism(&["block"], markers.into());
+    let recorded = |marker, force| RecordedContact {
+        marker,
+        force,
+        impulse: None,
+        impacts: Some(6),
+    };
+    mechanism.contacts = vec![recorded(0, 4), recorded(1, 5)];
+    let at = |t: f64| match t {
+        0.0 => [0.0, 0.0, 0.0, 3.0, 0.0, 1.0],
+        1.0 => [0.0, 0.0, 0.0, 0.0, 0.0, 2.0],
+        _ => [0.0; 6],
+    };
+    let film = film(&page::text("block", &moved(&mechanism, 2, at)).unwrap());
+    let flashes = |contact: usize| &film["contacts"][contact]["flashes"];
+    assert_eq!(*flashes(0), serde_json::json!([100, 0, 100]));
+    assert_eq!(*flashes(1), serde_json::json!([0, 0, 100]));
+}
+
+/// Neither impacts in every row nor numbers that are none make a page that cannot be read.
+#[test]
+fn odd_contacts_give_a_picture() {
+    let mut mechanism = mechanism(&["ball"], vec![marker(0, "ball", MarkerKind::Planar, 1, 3)]);
+    mechanism.contacts = vec![contact(0)];
+    for odd in [f64::NAN, f64::INFINITY, -3.0, 1e-310, f64::MAX, 0.0] {
+        let mut motion = Motion::new(&mechanism).unwrap();
+        for row in 0..5000 {
+            motion.record(&[f64::from(row), 0.0, 1.0, 0.0, odd, odd, odd]);
+        }
+        let page = page::text("odd", &motion).unwrap();
+        let (picture, _) = page.split_once("</svg>").unwrap();
+        assert!(
+            !picture.contains("NaN") && !picture.contains("inf"),
+            "{odd}"
+        );
+        let film = film(&page);
+        for numbers in ["radii", "flashes"] {
+            let numbers = film["contacts"][0][numbers].as_array().unwrap();
+            assert_eq!(numbers.len(), film["t"].as_array().unwrap().len());
+            assert!(
+                numbers.iter().all(|number| number.as_u64().unwrap() <= 110),
+                "{odd}"
+            );
+        }
     }
 }

@@ -44,7 +44,7 @@ pub struct Arguments {
     #[arg(long)]
     no_plots: bool,
 
-    /// Write animation.html, which shows the moving markers; their positions become columns of results.csv
+    /// Write animation.html, which shows the moving markers and contacts; what it needs becomes columns of results.csv
     #[arg(long)]
     animate: bool,
 }

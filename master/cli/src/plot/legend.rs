@@ -61,16 +61,7 @@ impl Legend {
 
     /// One entry for each name, in the styles of the curves in this order.
     pub(super) fn of_curves(names: &[&str], line: f64, width: i32) -> Self {
-        let entry = |(index, name): (usize, &&str)| {
-            let (colour, marker) = curve_style(index);
-            let key = Key {
-                marker: Some(marker),
-                colour,
-                line: Some(line),
-            };
-            (key, (*name).to_owned())
-        };
-        Self::new(names.iter().enumerate().map(entry), width)
+        Self::new(curve_keys(names, line), width)
     }
 
     /// Height in pixels.
@@ -91,6 +82,22 @@ impl Legend {
         }
         Ok(())
     }
+}
+
+/// Keys and names of the curves in this order.
+pub(super) fn curve_keys<'a>(
+    names: &'a [&str],
+    line: f64,
+) -> impl Iterator<Item = (Key, String)> + 'a {
+    names.iter().enumerate().map(move |(index, name)| {
+        let (colour, marker) = curve_style(index);
+        let key = Key {
+            marker: Some(marker),
+            colour,
+            line: Some(line),
+        };
+        (key, (*name).to_owned())
+    })
 }
 
 impl Entry {

@@ -99,6 +99,7 @@ pub(super) enum Marker {
     Plus,
     TriangleDown,
     Ring,
+    Bar,
 }
 
 const MARKERS: [Marker; 7] = [
@@ -165,6 +166,7 @@ impl Marker {
                 (0.9, -0.9),
                 (-0.9, 0.9),
             ]),
+            Self::Bar => path(&[(0.0, -2.2), (0.0, 2.2)]),
             Self::Plus => path(&[(-1.2, 0.0), (1.2, 0.0), (0.0, 0.0), (0.0, -1.2), (0.0, 1.2)]),
         }
     }

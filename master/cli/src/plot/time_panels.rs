@@ -6,26 +6,32 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
 use super::canvas::{Drawn, Picture, Surface, embed_font, svg, write};
+use super::curve::{self, LINE_WIDTH, Spread, names_to_tell_apart};
 use super::error::PlotError;
-use super::legend::{Legend, distinct};
+use super::legend::{Legend, curve_keys};
 use super::panel::{
     Axes, Panel, RIGHT_MARGIN, height_for_label, room_above, room_below, room_left,
 };
+use super::portrait::{self, Portrait};
 use super::scale::{Scale, padded};
-use super::spread::spread;
-use super::style::{FRAME, TITLE_TEXT, curve_style, fitted, stroke, text, units};
+use super::style::{FRAME, TITLE_TEXT, fitted, text, units};
 use super::thinning::thinned;
-use super::tiling::{PICTURE_WIDTH, check_number};
+use super::tiling::{PICTURE_WIDTH, Tiling, check_number};
+use super::time_marks::TimeMarks;
 
-/// Quantities over a common time axis, one panel above the other.
-#[derive(Clone, Debug)]
+/// Quantities over a common time axis, one panel above the other, and below them panels over other quantities.
+#[derive(Clone, Debug, Default)]
 pub struct TimePanels {
     /// Title of the picture.
     pub title: Option<String>,
     /// Label of the time axis, with its unit.
     pub time_label: String,
-    /// Panels from top to bottom, at most 12.
+    /// Panels from top to bottom, at most 12 with the portraits.
     pub panels: Vec<TimePanel>,
+    /// Panels with x axes of their own, one or two in a row.
+    pub portraits: Vec<Portrait>,
+    /// Marked times, in all panels over the time.
+    pub marks: TimeMarks,
 }
 
 /// One panel of [`TimePanels`].
@@ -71,7 +77,7 @@ pub fn time_panels_svg(plot: &TimePanels, name: &str) -> Result<String, PlotErro
 
 fn checked_layout<'a>(plot: &'a TimePanels, stem: &Path) -> Result<Layout<'a>, PlotError> {
     embed_font()?;
-    check_number(plot.panels.len())?;
+    check_number(plot.panels.len() + plot.portraits.len())?;
     all_series(plot).try_for_each(checked)?;
     Layout::new(plot).ok_or_else(|| PlotError::NoData {
         stem: stem.to_path_buf(),
@@ -82,10 +88,6 @@ const TITLE_HEIGHT: f64 = 42.0;
 const PANEL_HEIGHT: f64 = 250.0;
 const HIGHEST_PANEL: f64 = 560.0;
 const Y_MARGIN: f64 = 0.06;
-const LINE_WIDTH: f64 = 1.75;
-const DOT_RADIUS: f64 = 3.0;
-const MARKER_RADIUS: f64 = 5.0;
-const MARKERS_PER_SERIES: usize = 9;
 
 /// Pixel columns that a series is thinned out to, fewer when many series share the picture.
 const COLUMNS: usize = 1000;
@@ -132,6 +134,10 @@ impl TimePanel {
         Axis::vertical(self.y_scale, range, units(self.height() - room_above("")))
     }
 
+    fn names(&self) -> Vec<&str> {
+        self.series.iter().map(|own| own.name.as_str()).collect()
+    }
+
     fn height(&self) -> f64 {
         PANEL_HEIGHT.max(room_above("") + height_for_label(&self.y_label, HIGHEST_PANEL))
     }
@@ -156,21 +162,26 @@ struct Layout<'a> {
 
 impl<'a> Layout<'a> {
     fn new(plot: &'a TimePanels) -> Option<Self> {
-        let times = plot
-            .panels
-            .iter()
-            .flat_map(TimePanel::drawable)
-            .map(|(t, _)| t);
-        let time_range = Scale::Linear.range(Scale::Linear.extent(times)?);
+        let drawable = plot.panels.iter().flat_map(TimePanel::drawable);
+        let times = Scale::Linear.extent(drawable.map(|(t, _)| t));
+        if times.is_none() && !plot.portraits.iter().any(Portrait::is_drawable) {
+            return None;
+        }
         let values: Vec<Axis> = plot.panels.iter().map(TimePanel::axis).collect();
         let left = values.iter().map(room_left).max().unwrap_or(0);
-        let names = names_to_tell_apart(plot);
         let width = units(PICTURE_WIDTH - RIGHT_MARGIN) - left;
+        let time = times.map_or_else(Axis::blank, |times| {
+            Axis::horizontal(Scale::Linear, Scale::Linear.range(times), width)
+        });
+        let panels = plot.panels.iter().map(TimePanel::names);
+        let names = names_to_tell_apart(panels.chain(plot.portraits.iter().map(Portrait::names)));
+        let marks = times.and_then(|_| plot.marks.entry(&time));
+        let entries = curve_keys(&names, LINE_WIDTH).chain(marks);
         Some(Self {
             plot,
-            legend: Legend::of_curves(&names, LINE_WIDTH, units(PICTURE_WIDTH)),
+            legend: Legend::new(entries, units(PICTURE_WIDTH)),
             names,
-            time: Axis::horizontal(Scale::Linear, time_range, width),
+            time,
             values,
             left,
             columns: COLUMNS
@@ -199,6 +210,7 @@ impl<'a> Layout<'a> {
         if panel.drawable().next().is_none() {
             return inside.note_no_data();
         }
+        self.plot.marks.draw(&inside)?;
         panel
             .series
             .iter()
@@ -206,38 +218,19 @@ impl<'a> Layout<'a> {
     }
 
     fn draw_series<DB: Surface>(&self, inside: &Panel<DB>, series: &TimeSeries) -> Drawn<DB> {
-        let index = self.names.iter().position(|name| *name == series.name);
-        let (colour, marker) = curve_style(index.unwrap_or(0));
-        let mut places = Vec::new();
-        for run in thinned(series.points(), &inside.x, &inside.y, self.columns) {
-            let run: Vec<(i32, i32)> = run.into_iter().map(|point| inside.place(point)).collect();
-            match run[..] {
-                [alone] => {
-                    inside
-                        .area
-                        .draw(&Circle::new(alone, units(DOT_RADIUS), colour.filled()))?
-                }
-                _ => DB::polyline(&inside.area, &run, stroke(colour, LINE_WIDTH))?,
-            }
-            places.extend(run);
-        }
-        let Some(index) = index else { return Ok(()) };
-        let offset = (index as f64 + 0.5) / self.names.len() as f64;
-        for centre in spread(&places, inside.width, MARKERS_PER_SERIES, offset) {
-            marker.draw(&inside.area, centre, units(MARKER_RADIUS), colour)?;
-        }
-        Ok(())
+        let runs = thinned(series.points(), &inside.x, &inside.y, self.columns);
+        let name = (series.name.as_str(), &self.names[..]);
+        curve::draw(inside, runs, name, Spread::AlongAxis)
     }
-}
 
-/// Names of the series that share a panel; a series alone in its panel is told by the label of the axis.
-fn names_to_tell_apart(plot: &TimePanels) -> Vec<&str> {
-    let shared = plot.panels.iter().filter(|panel| panel.series.len() > 1);
-    distinct(
-        shared
-            .flat_map(|panel| &panel.series)
-            .map(|series| series.name.as_str()),
-    )
+    fn draw_portraits<DB: Surface>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
+        if self.plot.portraits.is_empty() {
+            return Ok(());
+        }
+        let places = Tiling::new(self.plot.portraits.len()).places(area);
+        let mut placed = self.plot.portraits.iter().zip(&places);
+        placed.try_for_each(|(portrait, place)| portrait.draw(place, &self.names))
+    }
 }
 
 /// Draws the title over the middle of the area and gives back what is below it.
@@ -259,8 +252,12 @@ fn below_title<DB: Surface>(
 impl Picture for Layout<'_> {
     fn size(&self) -> (u32, u32) {
         let title = self.plot.title.as_ref().map_or(0.0, |_| TITLE_HEIGHT);
-        let panels: f64 = self.plot.panels.iter().map(TimePanel::height).sum();
-        let height = title + self.legend.height() + panels + room_below();
+        let mut height = title + self.legend.height();
+        if !self.plot.panels.is_empty() {
+            height += self.plot.panels.iter().map(TimePanel::height).sum::<f64>() + room_below();
+        }
+        let rows = self.plot.portraits.len().div_ceil(portrait::IN_A_ROW);
+        height += portrait::HEIGHT * rows as f64;
         (PICTURE_WIDTH as u32, height.ceil() as u32)
     }
 
@@ -279,6 +276,6 @@ impl Picture for Layout<'_> {
             self.draw_panel(&own, panel, values, x_label)?;
             rest = below;
         }
-        Ok(())
+        self.draw_portraits(&rest)
     }
 }

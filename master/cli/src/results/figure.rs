@@ -1,13 +1,15 @@
-//! The picture of a run: what the scene's panels show, or motion, residuals and multipliers, over time.
+//! The picture of a run: what the scene's panels show, or motion, residuals and multipliers over time; and the impacts.
 
 use std::path::Path;
 
 use linchpin_master::results::{Drawn, Row};
-use linchpin_master::scene::Scene;
+use linchpin_master::scene::{Panel, Scene};
 
-use super::{RunReport, Trace};
+use super::{Impacts, RunReport, Trace};
 use crate::commands::CommandError;
-use crate::plot::{Scale, TimePanel, TimePanels, TimeSeries, time_panels};
+use crate::plot::{
+    self, Portrait, Scale, TimeMarks, TimePanel, TimePanels, TimeSeries, time_panels,
+};
 
 /// The panels of a scene that names none; those without curves are left out.
 const USUAL: [(&str, Drawn); 4] = [
@@ -17,71 +19,69 @@ const USUAL: [(&str, Drawn); 4] = [
     ("output", Drawn::Output),
 ];
 
-/// The empty series of the picture, each with the places of its columns in a row.
-pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<(Vec<usize>, Trace)> {
-    let panels = &scene.output.panels;
-    if panels.is_empty() {
-        let columns = row.columns().iter().enumerate();
-        let trace = |(place, name): (usize, &String)| {
-            let drawn = row.drawn(place)?;
-            let panel = USUAL.iter().position(|(_, kind)| *kind == drawn)?;
-            let trace = Trace::new(name.clone(), panel, drawn == Drawn::Multiplier);
-            Some((vec![place], trace))
-        };
-        return columns.filter_map(trace).collect();
-    }
-    let place_of = |column: &String| row.columns().iter().position(|name| name == column);
-    let curves = panels
-        .iter()
-        .enumerate()
-        .flat_map(|(panel, own)| own.curves.iter().map(move |curve| (panel, curve)));
-    let trace = |(panel, curve): (usize, &Vec<String>)| {
-        let places: Vec<usize> = curve.iter().filter_map(place_of).collect();
-        let is_multiplier = |place: &usize| row.drawn(*place) == Some(Drawn::Multiplier);
-        let shows_multipliers = places.iter().any(is_multiplier);
-        (
-            places,
-            Trace::new(curve.join(" + "), panel, shows_multipliers),
-        )
-    };
-    curves.map(trace).collect()
-}
+/// Name of marked impacts in the legend.
+const IMPACT: &str = "impact";
 
 /// Draws the runs of a scene's cases together, or its only run, to `STEM.svg` and `STEM.png`; a scene that couples and
 /// records nothing has no picture.
 pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), CommandError> {
-    let own = scene.output.panels.iter().map(|panel| panel.label.as_str());
-    let labels: Vec<&str> = match scene.output.panels[..] {
-        [] => USUAL.iter().map(|(label, _)| *label).collect(),
-        _ => own.collect(),
-    };
-    let panels: Vec<TimePanel> = { labels.iter().enumerate() }
-        .filter_map(|(panel, label)| {
-            let series = series_of(scene, reports, panel);
-            let y_scale = Scale::Linear;
-            (!series.is_empty()).then(|| TimePanel {
-                y_label: (*label).into(),
-                y_scale,
-                series,
-            })
-        })
-        .collect();
-    if panels.is_empty() {
-        return Ok(());
-    }
-    let picture = TimePanels {
+    let impacts = reports.iter().filter_map(|report| report.impacts.as_ref());
+    let mut picture = TimePanels {
         title: Some(scene.name.clone()),
         time_label: "t in s".into(),
-        panels,
+        marks: TimeMarks {
+            name: IMPACT.into(),
+            t: impacts.flat_map(Impacts::times).collect(),
+        },
+        ..TimePanels::default()
     };
+    let labels: Vec<(&str, Option<&Panel>)> = match &scene.output.panels[..] {
+        [] => USUAL.iter().map(|(label, _)| (*label, None)).collect(),
+        own => own
+            .iter()
+            .map(|panel| (panel.label.as_str(), Some(panel)))
+            .collect(),
+    };
+    for (number, (label, panel)) in labels.into_iter().enumerate() {
+        let curves = curves_of(scene, reports, number);
+        if curves.is_empty() {
+            continue;
+        }
+        let y_label = label.to_owned();
+        match panel.and_then(|panel| panel.over.as_ref()) {
+            None => picture.panels.push(TimePanel {
+                y_label,
+                y_scale: Scale::Linear,
+                series: curves.into_iter().map(over_time).collect(),
+            }),
+            Some(over) => picture.portraits.push(Portrait {
+                x_label: over.label.clone(),
+                y_label,
+                paths: curves,
+            }),
+        }
+    }
+    if picture.panels.is_empty() && picture.portraits.is_empty() {
+        return Ok(());
+    }
     Ok(time_panels(&picture, stem)?)
 }
 
+fn over_time(curve: plot::Path) -> TimeSeries {
+    let (t, y) = curve.points.into_iter().unzip();
+    TimeSeries {
+        name: curve.name,
+        t,
+        y,
+    }
+}
+
 /// The curves of one panel.
-fn series_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<TimeSeries> {
+fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<plot::Path> {
     let is_single = reports.len() == 1;
     let is_usual = scene.output.panels.is_empty();
-    let mut series = Vec::new();
+    let is_over_time = is_usual || scene.output.panels[panel].over.is_none();
+    let mut curves = Vec::new();
     for (number, report) in reports.iter().enumerate() {
         let case = scene.cases.get(number);
         let resolved = case.and_then(|case| scene.with_case(case).ok());
@@ -94,21 +94,24 @@ fn series_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<TimeSeri
             1
         };
         let is_only = is_usual || scene.output.panels[panel].curves.len() == 1;
-        series.extend(chosen.take(most).map(|trace| {
-            let delay = middle_of_step(resolved, trace);
+        curves.extend(chosen.take(most).map(|trace| {
             let points = trace.points.items().iter();
-            let (t, y) = points
-                .map(|(t, y)| ((t - delay).max(scene.t_start), *y))
-                .unzip();
+            let points = if is_over_time {
+                let delay = middle_of_step(resolved, trace);
+                let delayed = |(t, y): &(f64, f64)| ((t - delay).max(scene.t_start), *y);
+                points.map(delayed).collect()
+            } else {
+                points.copied().collect()
+            };
             let name = match case {
                 None => trace.name.clone(),
                 Some(case) if is_only => case.name.clone(),
                 Some(case) => format!("{}: {}", trace.name, case.name),
             };
-            TimeSeries { name, t, y }
+            plot::Path { name, points }
         }));
     }
-    series
+    curves
 }
 
 /// With `k = 0` a corrected multiplier is the mean over its step, so it belongs to the middle of the step.
@@ -118,4 +121,62 @@ fn middle_of_step(scene: &Scene, trace: &Trace) -> f64 {
     } else {
         0.0
     }
+}
+
+/// A series of the picture with the places of its columns in a row: their sum over another sum.
+pub(super) struct Traced {
+    over: Vec<usize>,
+    curve: Vec<usize>,
+    pub trace: Trace,
+}
+
+impl Traced {
+    /// Takes the values of a row.
+    pub fn record(&mut self, values: &[f64]) {
+        let sum = |places: &[usize]| places.iter().map(|place| values[*place]).sum();
+        let (over, curve) = (&self.over, &self.curve);
+        self.trace.points.push(|| (sum(over), sum(curve)));
+    }
+}
+
+/// Place of the time in a row.
+const TIME: usize = 0;
+
+/// The series of the picture, still empty.
+pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Traced> {
+    if scene.output.panels.is_empty() {
+        return usual_traces(row);
+    }
+    let place_of = |column: &String| row.columns().iter().position(|name| name == column);
+    let places_of = |sum: &[String]| -> Vec<usize> { sum.iter().filter_map(place_of).collect() };
+    let is_multiplier = |place: &usize| row.drawn(*place) == Some(Drawn::Multiplier);
+    let panels = scene.output.panels.iter().enumerate();
+    let traced = panels.flat_map(|(panel, own)| {
+        let over = own.over.as_ref();
+        let over = over.map_or_else(|| vec![TIME], |over| places_of(&over.column));
+        own.curves.iter().map(move |curve| {
+            let places = places_of(curve);
+            let shows_multipliers = places.iter().any(is_multiplier);
+            Traced {
+                over: over.clone(),
+                trace: Trace::new(curve.join(" + "), panel, shows_multipliers),
+                curve: places,
+            }
+        })
+    });
+    traced.collect()
+}
+
+fn usual_traces(row: &Row) -> Vec<Traced> {
+    let columns = row.columns().iter().enumerate();
+    let traced = |(place, name): (usize, &String)| {
+        let drawn = row.drawn(place)?;
+        let panel = USUAL.iter().position(|(_, kind)| *kind == drawn)?;
+        Some(Traced {
+            over: vec![TIME],
+            curve: vec![place],
+            trace: Trace::new(name.clone(), panel, drawn == Drawn::Multiplier),
+        })
+    };
+    columns.filter_map(traced).collect()
 }

@@ -1,12 +1,14 @@
 //! What a run leaves behind: table, report, picture.
 
 mod figure;
+mod impacts;
 mod recorder;
 mod report;
 mod thinned;
 mod trace;
 
 pub use figure::draw;
+pub use impacts::Impacts;
 pub use recorder::RunRecorder;
 pub use report::RunReport;
 pub use thinned::Thinned;

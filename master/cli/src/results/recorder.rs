@@ -10,8 +10,8 @@ use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
-use super::figure::traces;
-use super::{RunReport, Trace};
+use super::figure::{Traced, traces};
+use super::{Impacts, RunReport};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
@@ -29,7 +29,8 @@ pub struct RunRecorder {
     closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
     scene: Scene,
-    traces: Vec<(Vec<usize>, Trace)>,
+    traces: Vec<Traced>,
+    impacts: Option<Impacts>,
     motion: Option<Motion>,
     bar: ProgressBar,
     t_start: f64,
@@ -58,6 +59,7 @@ impl RunRecorder {
             errors: None,
             scene: scene.clone(),
             traces: Vec::new(),
+            impacts: None,
             motion: None,
             bar: if shows_progress {
                 bar()
@@ -82,7 +84,8 @@ impl RunRecorder {
         Ok(RunReport {
             statistics,
             errors: self.errors,
-            traces: self.traces.into_iter().map(|(_, trace)| trace).collect(),
+            traces: self.traces.into_iter().map(|own| own.trace).collect(),
+            impacts: self.impacts,
             motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
         })
@@ -138,6 +141,7 @@ impl Recorder for RunRecorder {
 
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
         self.traces = traces(&self.scene, row);
+        self.impacts = Some(Impacts::of(&self.scene, row));
         self.errors = self
             .closed_form
             .take()
@@ -147,10 +151,11 @@ impl Recorder for RunRecorder {
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
-        for (places, trace) in &mut self.traces {
-            let values = row.values();
-            let sum = || places.iter().map(|place| values[*place]).sum();
-            trace.points.push(|| (values[0], sum()));
+        for traced in &mut self.traces {
+            traced.record(row.values());
+        }
+        if let Some(impacts) = &mut self.impacts {
+            impacts.record(row.values());
         }
         if let Some(errors) = &mut self.errors {
             errors.add(row);

@@ -10,7 +10,7 @@ use linchpin_master::results::{DegreeStatistics, Statistics, StepStatistics};
 use linchpin_master::scene::{Degree, Method, Scene, StepControl};
 use serde::Serialize;
 
-use super::Trace;
+use super::{Impacts, Trace};
 use crate::animation::Motion;
 use crate::commands::CommandError;
 use crate::commands::common::SceneArguments;
@@ -24,6 +24,8 @@ pub struct RunReport {
     pub errors: Option<ErrorMeter>,
     /// Series for the picture.
     pub traces: Vec<Trace>,
+    /// Impacts inside subsystems; absent before the first row.
+    pub impacts: Option<Impacts>,
     /// Positions of the markers, if they were asked for.
     pub motion: Option<Motion>,
     /// Time of the whole run in s.

@@ -5,7 +5,7 @@ use super::Thinned;
 /// Most points that are kept.
 const MOST_POINTS: usize = 1 << 16;
 
-/// Points `(t, y)` of a long run.
+/// Points `(x, y)` of a long run, where `x` is the time or what its panel shows its curves over.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
     /// Result column, or the sum of several.
@@ -14,7 +14,7 @@ pub struct Trace {
     pub panel: usize,
     /// Whether it shows multipliers.
     pub shows_multipliers: bool,
-    /// Times in s and values.
+    /// Times in s, or values of the other quantity, and values.
     pub points: Thinned<(f64, f64)>,
 }
 

@@ -5,6 +5,7 @@ mod coupling_mistakes;
 mod mistakes;
 mod override_mistakes;
 mod overrides;
+mod panels;
 mod properties;
 mod reference_mistakes;
 mod settings;

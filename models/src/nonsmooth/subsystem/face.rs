@@ -110,6 +110,8 @@ pub enum Output {
     Gap(usize),
     /// Contact force of a row.
     Force(usize),
+    /// Normal impulses of a contact in the last step of the subsystem.
+    ContactImpulse(usize),
     /// Energy.
     Energy,
     /// Impacts in the last step of the subsystem.
@@ -184,6 +186,11 @@ impl Face {
                     &format!("friction force at {name} between impacts, along growing slip"),
                 );
                 all.push((Output::Force(row + 1 + tangent), friction));
+            }
+            if contact.side == Side::Unilateral {
+                let what = format!("sum of the normal impulses at {name} in the last macro step");
+                let impulse = output(&format!("impulse_{name}"), "N s", &what);
+                all.push((Output::ContactImpulse(place), impulse));
             }
             row += contact.rows();
         }

@@ -30,6 +30,8 @@ pub struct Run {
     has_started: bool,
     /// What happened in the last macro step.
     last: Interlude,
+    /// Normal impulses of each contact in it (N s).
+    impulses: Vec<f64>,
     /// Inputs at an instant, as polynomials.
     held: Inputs,
     accelerations: Vec<f64>,
@@ -76,10 +78,12 @@ impl Run {
             field: "solver".to_owned(),
             reason: error.to_string(),
         })?;
+        let contacts = integrator.mechanics.contacts().len();
         Ok(Self {
             outputs: outputs.into_iter().map(|(output, _)| output).collect(),
             accelerations: vec![0.0; integrator.state.q.len()],
-            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS],
+            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts],
+            impulses: vec![0.0; contacts],
             held: Inputs::constant(&defaults),
             last: Interlude {
                 impacts: 0.0,
@@ -108,6 +112,7 @@ impl Run {
         }
         let before = self.integrator.log;
         let mut first_impact = None;
+        self.impulses.fill(0.0);
         for part in 0..parts {
             // Not added up, so that the last step ends where the interval does.
             self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
@@ -117,6 +122,10 @@ impl Run {
             stepped.map_err(|error| failed(t, error))?;
             if self.integrator.log.impacts > impacts {
                 first_impact.get_or_insert(t);
+                for (place, impulse) in self.impulses.iter_mut().enumerate() {
+                    let row = self.integrator.mechanics.first_row(place);
+                    *impulse += self.integrator.state.impulses[row];
+                }
             }
         }
         let log = self.integrator.log;
@@ -142,16 +151,19 @@ impl Run {
             time,
             impulse,
         ]);
+        put(&self.impulses);
     }
 
     fn recall(&mut self) {
-        if let &[has_started, impacts, time, impulse] = self.integrator.recall(&self.kept) {
+        let own = self.integrator.recall(&self.kept);
+        if let &[has_started, impacts, time, impulse, ref impulses @ ..] = own {
             self.has_started = has_started == 1.0;
             self.last = Interlude {
                 impacts,
                 time,
                 impulse,
             };
+            self.impulses.copy_from_slice(impulses);
         }
     }
 
@@ -217,6 +229,7 @@ impl Run {
             }
             Output::Gap(place) => self.integrator.gaps()[place],
             Output::Force(row) => state.forces[row],
+            Output::ContactImpulse(place) => self.impulses[place],
             Output::Energy => self.integrator.energy(),
             Output::Impacts => self.last.impacts,
             Output::ImpactTime => self.last.time,

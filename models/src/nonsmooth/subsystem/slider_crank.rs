@@ -24,6 +24,7 @@ use crate::nonsmooth::systems::rigid_slider_crank::RigidSliderCrank;
 use face::face;
 use flexible::Flexible;
 use parameters::{KEYS, START, mechanism, numbers, refused};
+use picture::{Picture, drawn};
 use rigid::Rigid;
 
 const NAME: &str = "slider-crank";
@@ -42,17 +43,26 @@ enum System {
 impl System {
     fn of(parameters: &Parameters<'_>) -> Result<Self, SetupError> {
         let (mechanism, guide) = (mechanism(parameters)?, parameters::guide(parameters)?);
-        let magnification = parameters::magnification(parameters)?;
+        let picture = Picture::new(
+            mechanism.notch,
+            mechanism.lengths,
+            parameters::magnification(parameters)?,
+            guide,
+        );
+        let drawn = drawn(guide, parameters::elements(parameters)?);
+        let drawn = drawn.into_iter().map(|(_, drawn)| drawn).collect();
         Ok(match parameters::flexible(parameters, &mechanism)? {
             None => Self::Rigid(Rigid {
                 system: Arc::new(RigidSliderCrank::new(mechanism, guide)),
-                magnification,
+                picture,
+                drawn,
             }),
             Some(flexible) => {
                 let system = FlexibleSliderCrank::new(flexible, guide);
                 Self::Flexible(Flexible {
                     system: Arc::new(system.map_err(|error| refused("elements", error))?),
-                    magnification,
+                    picture,
+                    drawn,
                 })
             }
         })

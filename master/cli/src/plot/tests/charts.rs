@@ -145,6 +145,7 @@ fn long_labels_are_neither_cut_nor_on_top_of_each_other() {
         title: Some(long.clone()),
         time_label: long.clone(),
         panels: vec![panel(), panel()],
+        ..TimePanels::default()
     };
     time_panels(&plot, &directory.stem()).unwrap();
     directory.svg().assert_legible();

@@ -3,6 +3,7 @@
 mod charts;
 mod errors;
 mod odd_data;
+mod portraits;
 mod read;
 mod spectra;
 
@@ -65,6 +66,7 @@ fn over_time(panels: Vec<TimePanel>) -> TimePanels {
         title: None,
         time_label: "t (s)".into(),
         panels,
+        ..TimePanels::default()
     }
 }
 

@@ -171,6 +171,7 @@ fn over_time(scene: &SceneReport) -> Option<TimePanels> {
         title: None,
         time_label: "t in s".to_owned(),
         panels,
+        ..TimePanels::default()
     })
 }
 

@@ -4,7 +4,7 @@ use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
 
 use super::parameters::{elements, guide};
-use super::picture::outlines;
+use super::picture::drawn;
 use crate::mechanics::describe::{input, output};
 use crate::nonsmooth::subsystem::face::{Coordinate, Face, FaceContact, FaceMarker};
 use crate::nonsmooth::subsystem::keys::Parameters;
@@ -30,7 +30,7 @@ pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
         }
         Guide::Free => Vec::new(),
     };
-    let drawn = |name: String| FaceMarker {
+    let for_pictures = |name: String| FaceMarker {
         name,
         load: Vec::new(),
         has_rates: false,
@@ -45,7 +45,11 @@ pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
         moving("pin", &[]),
         moving("slider", &[]),
     ];
-    markers.extend(outlines(guide, elements).map(drawn));
+    markers.extend(
+        drawn(guide, elements)
+            .into_iter()
+            .map(|(name, _)| for_pictures(name)),
+    );
     Ok(Face {
         coordinates: vec![
             Coordinate::angle("theta1", "omega1", "angle of the crank from the x axis"),

@@ -3,19 +3,21 @@
 use std::sync::Arc;
 
 use super::face::MOVING;
-use super::picture::place;
+use super::picture::{Drawn, Picture};
 use super::rigid::{along, with_angle};
 use crate::nonsmooth::subsystem::observed::{Motion, Observer, PointMotion};
 use crate::nonsmooth::system::MechanicalSystem;
 use crate::nonsmooth::systems::flexible_slider_crank::FlexibleSliderCrank;
 
-/// A flexible mechanism with the magnification of its picture.
+/// A flexible mechanism with its picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Flexible {
     /// The mechanism.
     pub system: Arc<FlexibleSliderCrank>,
-    /// Of what is only drawn.
-    pub magnification: f64,
+    /// How it is drawn.
+    pub picture: Picture,
+    /// What is drawn.
+    pub drawn: Vec<Drawn>,
 }
 
 impl Flexible {
@@ -51,11 +53,10 @@ impl Observer for Flexible {
     }
 
     fn marker(&self, marker: usize, motion: Motion<'_>) -> PointMotion {
-        let mechanism = self.system.mechanism();
-        let lengths = [mechanism.crank_length, mechanism.rod.length];
+        let [crank, _] = self.picture.lengths;
         let turn = |place: usize| [motion.q[place], motion.v[place], motion.a[place]];
         let still = [[0.0; 3]; 3];
-        let pin = || along(still, lengths[0], turn(0));
+        let pin = || along(still, crank, turn(0));
         match marker {
             0 => with_angle(still, turn(0)),
             1 => with_angle(pin(), turn(1)),
@@ -63,13 +64,15 @@ impl Observer for Flexible {
             _ => {
                 let [x, y] = self.system.slider(motion.q);
                 let centre = [x, y, motion.q[2]];
-                let notch = &mechanism.notch;
-                let drawn = place(marker - MOVING, notch, lengths, centre, self.magnification);
-                let drawn = drawn.unwrap_or_else(|node| {
-                    let [x, y] = self.system.node(motion.q, node, self.magnification);
-                    [x, y, motion.q[1]]
-                });
-                [drawn, [0.0; 3], [0.0; 3]]
+                let place = match self.drawn.get(marker - MOVING) {
+                    Some(&Drawn::Node(node)) => {
+                        let [x, y] = self.system.node(motion.q, node, self.picture.magnification);
+                        [x, y, motion.q[1]]
+                    }
+                    Some(&drawn) => self.picture.place(drawn, centre),
+                    None => centre,
+                };
+                [place, [0.0; 3], [0.0; 3]]
             }
         }
     }

@@ -3,17 +3,19 @@
 use std::sync::Arc;
 
 use super::face::MOVING;
-use super::picture::place;
+use super::picture::{Drawn, Picture};
 use crate::nonsmooth::subsystem::observed::{Motion, Observer, PointMotion};
 use crate::nonsmooth::systems::rigid_slider_crank::RigidSliderCrank;
 
-/// A rigid mechanism with the magnification of its picture.
+/// A rigid mechanism with its picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rigid {
     /// The mechanism.
     pub system: Arc<RigidSliderCrank>,
-    /// Of what is only drawn.
-    pub magnification: f64,
+    /// How it is drawn.
+    pub picture: Picture,
+    /// What is drawn.
+    pub drawn: Vec<Drawn>,
 }
 
 impl Observer for Rigid {
@@ -35,9 +37,9 @@ impl Observer for Rigid {
             2 => with_angle(slider(), turn(2)),
             _ => {
                 let centre = with_angle(slider(), turn(2))[0];
-                let notch = &self.system.mechanism().notch;
-                let drawn = place(marker - MOVING, notch, lengths, centre, self.magnification);
-                [drawn.unwrap_or(centre), [0.0; 3], [0.0; 3]]
+                let place = |drawn: &Drawn| self.picture.place(*drawn, centre);
+                let drawn = self.drawn.get(marker - MOVING);
+                [drawn.map_or(centre, place), [0.0; 3], [0.0; 3]]
             }
         }
     }
