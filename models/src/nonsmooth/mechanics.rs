@@ -64,6 +64,8 @@ pub struct Counters {
     pub contact_iterations: u64,
     /// Contact problems with several solutions (Painleve).
     pub ambiguous: u64,
+    /// Contact problems in which a pressed contact jams: its force is that of an impact without collision (Painleve).
+    pub jams: u64,
     /// Largest residual of a contact problem (m/s).
     pub largest_residual: f64,
     /// Largest change of the velocities in the last iteration of a step, as a share of their size.
@@ -125,6 +127,8 @@ pub struct Mechanics {
     pub factors: Factors,
     /// `W^T`, all rows.
     pub directions: Vec<f64>,
+    /// `(dW^T/dt) v`, all rows.
+    pub rates: Vec<f64>,
     /// `M^-1 W`, for the rows that take part.
     responses: Vec<f64>,
 }
@@ -154,6 +158,7 @@ impl Mechanics {
             mass: BorderedBand::zeros(shape),
             factors: Factors::new(shape),
             directions: vec![0.0; rows * shape.order()],
+            rates: vec![0.0; rows],
             responses: Vec::new(),
             contacts,
             system,
@@ -361,6 +366,7 @@ impl Mechanics {
         counters.contact_problems[place] += 1;
         counters.contact_iterations += solved.iterations as u64;
         counters.ambiguous += u64::from(solved.is_ambiguous);
+        counters.jams += u64::from(solved.jams);
         counters.largest_residual = counters.largest_residual.max(solved.residual);
     }
 }

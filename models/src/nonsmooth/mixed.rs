@@ -6,7 +6,7 @@ use super::impact;
 use super::matrix::dot;
 use super::mechanics::{Mechanics, Settings, StepError};
 use super::schemes::{Outcome, Scheme, SchemeError, SchemeKind};
-use super::start::{Contacts, accelerate};
+use super::start::{Contacts, accelerate, relative_velocity};
 use super::state::{Drive, State, Step};
 use super::system::{MechanicalSystem, Side};
 
@@ -19,9 +19,10 @@ pub struct ContactLog {
     pub first_impact: Option<f64>,
     /// Sum of all normal impulses (N s).
     pub impulse: f64,
-    /// Energy that impacts took (J).
+    /// Energy that impacts took (J); of an impulsive scheme what contacts took in steps with an impact.
     pub impact_loss: f64,
-    /// Energy that friction took between impacts (J), by the trapezoidal rule.
+    /// Energy that friction took between impacts (J), by the trapezoidal rule; of an impulsive scheme what contacts took in
+    /// the other steps.
     pub friction_loss: f64,
     /// Deepest penetration, `-g_N` (m).
     pub penetration: f64,
@@ -40,6 +41,10 @@ pub struct Integrator {
     gaps: Vec<f64>,
     closed: Vec<bool>,
     closed_next: Vec<bool>,
+    /// Velocities before the impulses of the last correction.
+    before_impact: Vec<f64>,
+    /// Whether the last step was corrected.
+    was_corrected: bool,
     /// Power that friction takes at the start of the step (W).
     friction_power: f64,
 }
@@ -69,31 +74,34 @@ impl Integrator {
             gaps: vec![0.0; contacts],
             closed: vec![false; contacts],
             closed_next: vec![false; contacts],
+            before_impact: vec![0.0; q.len()],
+            was_corrected: false,
             friction_power: 0.0,
             mechanics,
         })
     }
 
-    /// Accelerations at the start.
+    /// Accelerations at the start. With a consistent start, closed contacts that approach each other collide first.
     ///
     /// # Errors
     /// [`StepError`].
     pub fn start(&mut self, drive: Drive<'_>) -> Result<(), StepError> {
-        let contacts = if self.mechanics.settings.has_consistent_start {
-            Contacts::Acting
-        } else {
-            Contacts::Ignored
-        };
         self.find_closed();
+        self.next.copy_from(&self.state);
         self.closed_next.copy_from_slice(&self.closed);
-        let closed = &mut self.closed_next;
-        accelerate(
-            &mut self.mechanics,
-            drive,
-            contacts,
-            closed,
-            &mut self.state,
-        )
+        let mut log = self.log;
+        if !self.mechanics.settings.has_consistent_start {
+            self.accelerate(drive, Contacts::Ignored)?;
+        } else if self.approaches() {
+            self.correct(&mut log, drive)?;
+            self.accelerate(drive, Contacts::Acting)?;
+        } else {
+            self.accelerate(drive, Contacts::Acting)?;
+        }
+        self.friction_power = self.friction_power_of_next();
+        self.log = log;
+        std::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
     }
 
     /// One step of length `dt`. A step that fails leaves the state as it was.
@@ -117,13 +125,27 @@ impl Integrator {
         self.mechanics.system.gaps(&self.next.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed_next);
         let mut log = self.log;
-        self.account_for_friction(&mut log, dt);
+        let mut friction_power = 0.0;
+        self.was_corrected = false;
         match outcome {
-            Outcome::Smooth if closes_anew(&self.closed, &self.closed_next) => {
-                self.correct(&mut log, drive)?;
+            Outcome::Smooth => {
+                friction_power = self.friction_power_of_next();
+                log.friction_loss += 0.5 * dt * (self.friction_power + friction_power);
+                if closes_anew(&self.closed, &self.closed_next) {
+                    self.correct(&mut log, drive)?;
+                    if self.mechanics.settings.restarts_after_impacts {
+                        self.accelerate(drive, Contacts::Acting)?;
+                    }
+                    friction_power = self.friction_power_of_next();
+                }
             }
-            Outcome::Impulsive { has_impact: true } => self.note_impact(&mut log, drive),
-            Outcome::Smooth | Outcome::Impulsive { .. } => {}
+            Outcome::Impulsive { has_impact: true } => {
+                log.impact_loss += self.loss_by_impulses(dt);
+                self.note_impact(&mut log, drive);
+            }
+            Outcome::Impulsive { has_impact: false } => {
+                log.friction_loss += self.loss_by_impulses(dt);
+            }
         }
         if !self.next.is_finite() {
             return Err(StepError::NotFinite);
@@ -134,6 +156,7 @@ impl Integrator {
         log.penetration = log.penetration.max(deepest);
 
         self.log = log;
+        self.friction_power = friction_power;
         self.mechanics.counters.steps += 1;
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
@@ -148,6 +171,12 @@ impl Integrator {
     pub fn gaps(&mut self) -> &[f64] {
         self.mechanics.system.gaps(&self.state.q, &mut self.gaps);
         &self.gaps
+    }
+
+    /// Velocities before the impulses of the last step, if it had any that corrected it: then
+    /// `M(q) (v^+ - v^-) = W(q) Lambda` holds for the velocities and impulses of the state.
+    pub fn velocities_before_impact(&self) -> Option<&[f64]> {
+        self.was_corrected.then_some(&self.before_impact)
     }
 
     /// The next interval of inputs starts here.
@@ -167,27 +196,38 @@ impl Integrator {
             .map(|(_, &gap)| gap)
     }
 
+    /// Whether a closed contact moves further together in `next`.
+    fn approaches(&mut self) -> bool {
+        self.mechanics.direct(&self.next.q, &self.closed_next);
+        let contacts = self.mechanics.contacts().iter().zip(&self.closed_next);
+        let mut closed = contacts
+            .enumerate()
+            .filter(|(_, (contact, closed))| contact.side == Side::Unilateral && **closed);
+        closed.any(|(index, _)| {
+            let row = self.mechanics.first_row(index);
+            relative_velocity(&self.mechanics, row, &self.next.v) < 0.0
+        })
+    }
+
     /// The impulsive correction of the velocities in `next`.
     fn correct(&mut self, log: &mut ContactLog, drive: Drive<'_>) -> Result<(), StepError> {
         let next = &mut self.next;
         let system = &self.mechanics.system;
         let before = system.energy(&next.q, &next.v);
+        self.before_impact.copy_from_slice(&next.v);
         let (closed, impulses) = (&self.closed_next, &mut next.impulses);
         impact::correct(&mut self.mechanics, closed, &next.q, &mut next.v, impulses)?;
         log.impact_loss += before - self.mechanics.system.energy(&next.q, &next.v);
         self.note_impact(log, drive);
-        if self.mechanics.settings.restarts_after_impacts {
-            let closed = &mut self.closed;
-            closed.copy_from_slice(&self.closed_next);
-            accelerate(
-                &mut self.mechanics,
-                drive,
-                Contacts::Acting,
-                closed,
-                &mut self.next,
-            )?;
-        }
+        self.was_corrected = true;
         Ok(())
+    }
+
+    /// Accelerations and forces of `next`, whose closed contacts are `closed_next`.
+    fn accelerate(&mut self, drive: Drive<'_>, contacts: Contacts) -> Result<(), StepError> {
+        let closed = &mut self.closed;
+        closed.copy_from_slice(&self.closed_next);
+        accelerate(&mut self.mechanics, drive, contacts, closed, &mut self.next)
     }
 
     fn note_impact(&self, log: &mut ContactLog, drive: Drive<'_>) {
@@ -200,10 +240,19 @@ impl Integrator {
         }
     }
 
-    fn account_for_friction(&mut self, log: &mut ContactLog, dt: f64) {
-        let power = self.friction_power_of_next();
-        log.friction_loss += 0.5 * dt * (self.friction_power + power);
-        self.friction_power = power;
+    /// Energy that the forces of an impulsive scheme took over the step: `-dt lambda^T W^T (v_i + v_{i+1}) / 2`, with the `W`
+    /// that was evaluated last. For the midpoint rule that is all that contacts take.
+    fn loss_by_impulses(&self, dt: f64) -> f64 {
+        let n = self.next.v.len();
+        let rows = self.mechanics.directions.chunks_exact(n.max(1));
+        let taken = rows.zip(&self.next.forces).map(|(row, &force)| {
+            if force == 0.0 {
+                0.0
+            } else {
+                force * (dot(row, &self.state.v) + dot(row, &self.next.v))
+            }
+        });
+        -0.5 * dt * taken.sum::<f64>()
     }
 
     /// `-sum lambda_T g_T'` at the end of the step.

@@ -1,14 +1,12 @@
 //! The nonsmooth Gauss-Newton iteration of S2 eqs. (42) to (45) and (51) to (54).
 
-use super::least_norm::LeastNorm;
+use super::least_norm::{LeastNorm, is_regular};
 use super::problem::{Law, Problem};
 use super::solve::{Jacobian, Weights};
-use crate::nonsmooth::matrix::{dense_factor, dense_solve};
+use crate::nonsmooth::matrix::dense_solve;
 
 /// Iterations after which it is given up: the pattern of active contacts cycles. Where it converges, it takes 1 to 5.
 const MOST_ITERATIONS: usize = 25;
-/// A pivot below this share of the largest means dependent rows: then the step is the one of least norm.
-const DEPENDENT: f64 = 1e-11;
 
 /// Room for the iteration.
 #[derive(Debug, Clone, Default)]
@@ -143,12 +141,7 @@ impl GaussNewton {
         self.kept.clear();
         self.kept.extend_from_slice(&self.gradient);
         self.pivots.resize(n, 0);
-        let is_regular = dense_factor(n, &mut self.kept, &mut self.pivots[..n]).is_ok() && {
-            let pivots = || (0..n).map(|k| self.kept[k * (n + 1)].abs());
-            let smallest = pivots().fold(f64::INFINITY, f64::min);
-            smallest > DEPENDENT * pivots().fold(0.0, f64::max)
-        };
-        if is_regular {
+        if is_regular(n, &mut self.kept, &mut self.pivots[..n]) {
             dense_solve(n, &self.kept, &self.pivots[..n], &mut self.step);
         } else {
             self.least_norm.solve(n, &self.gradient, &mut self.step);

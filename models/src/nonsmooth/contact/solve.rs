@@ -4,6 +4,7 @@ use super::enumeration::{Count, Enumeration};
 use super::gauss_newton::GaussNewton;
 use super::gauss_seidel;
 use super::problem::Problem;
+use super::uniqueness::Uniqueness;
 
 /// What the gradient of the Gauss-Newton iteration has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -82,6 +83,8 @@ pub struct Solved {
     pub residual: f64,
     /// Whether other solutions with other velocities were found (Painleve).
     pub is_ambiguous: bool,
+    /// Whether a pressed contact jams (Painleve), see [`Problem::jams`].
+    pub jams: bool,
 }
 
 /// Why there are no forces.
@@ -113,6 +116,7 @@ pub enum Unsolved {
 pub struct ContactSolver {
     gauss_newton: GaussNewton,
     enumeration: Enumeration,
+    uniqueness: Uniqueness,
     trial: Vec<f64>,
 }
 
@@ -133,17 +137,26 @@ impl ContactSolver {
                 iterations: 0,
                 residual: 0.0,
                 is_ambiguous: false,
+                jams: false,
             });
         }
         let numbers = problem.delassus.iter().chain(&problem.free);
         if !numbers.clone().all(|number| number.is_finite()) {
             return Err(Unsolved::NotFinite);
         }
-        let found = self.find(problem, settings, x);
-        if !problem.may_jam() {
-            return found;
+        let solved = self.find(problem, settings, x)?;
+        let solved = self.find(problem, settings, x)?;
+        if self.uniqueness.is_certain(problem) {
+            return Ok(solved);
         }
-        self.look_for_others(problem, found, x)
+        self.trial.clear();
+        self.trial.extend_from_slice(x);
+        let count = self.enumeration.solve(problem, &mut self.trial);
+        Ok(Solved {
+            is_ambiguous: count == Count::Several,
+            jams: problem.jams(x),
+            ..solved
+        })
     }
 
     fn find(
@@ -157,6 +170,7 @@ impl ContactSolver {
             iterations,
             residual: problem.residual(x),
             is_ambiguous: false,
+            jams: false,
         };
         let &ContactSettings {
             jacobian,
@@ -190,29 +204,10 @@ impl ContactSolver {
                 residual,
                 rows: problem.len(),
             }),
-            count => {
+            Count::One | Count::Several => {
                 x.copy_from_slice(&self.trial);
-                Ok(Solved {
-                    is_ambiguous: count == Count::Several,
-                    ..solved(SolverKind::Enumeration, 1, x)
-                })
+                Ok(solved(SolverKind::Enumeration, 1, x))
             }
         }
-    }
-
-    fn look_for_others(
-        &mut self,
-        problem: &Problem,
-        found: Result<Solved, Unsolved>,
-        x: &[f64],
-    ) -> Result<Solved, Unsolved> {
-        let solved = found?;
-        self.trial.clear();
-        self.trial.extend_from_slice(x);
-        let count = self.enumeration.solve(problem, &mut self.trial);
-        Ok(Solved {
-            is_ambiguous: count == Count::Several,
-            ..solved
-        })
     }
 }
