@@ -3,7 +3,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod ball;
 mod golden;
 mod golden_masses;
 mod golden_rigid;
+mod incline;
+mod rocking;
 mod stand;

@@ -145,7 +145,6 @@ impl ContactSolver {
             return Err(Unsolved::NotFinite);
         }
         let solved = self.find(problem, settings, x)?;
-        let solved = self.find(problem, settings, x)?;
         if self.uniqueness.is_certain(problem) {
             return Ok(solved);
         }

@@ -1,0 +1,154 @@
+//! A rocking block, all schemes, against Housner 1963: a block that stands on a corner falls back, and its other corner hits
+//! the floor.
+
+use std::f64::consts::PI;
+
+use linchpin_models::nonsmooth::mechanics::Settings;
+use linchpin_models::nonsmooth::schemes::SchemeKind;
+use linchpin_models::nonsmooth::systems::body_on_planes::{Body, BodyOnPlanes, Plane, corners_of};
+use linchpin_models::nonsmooth::systems::notch::CornerLaw;
+
+use super::stand::{SCHEMES, Stand};
+
+const GRAVITY: f64 = 9.79;
+const HALF: [f64; 2] = [0.043, 0.31];
+const TILT: f64 = 0.037;
+
+/// On its left lower corner, turned by `quarters` of a turn as well, so that other corners are the lower ones.
+fn block(scheme: SchemeKind, restitution: f64, quarters: u8) -> Stand {
+    let half = if quarters % 2 == 0 {
+        HALF
+    } else {
+        [HALF[1], HALF[0]]
+    };
+    let body = Body::rectangle(2.3, half, GRAVITY);
+    let law = CornerLaw {
+        normal_restitution: restitution,
+        tangential_restitution: 0.0,
+        friction: 2.0,
+    };
+    let corners = corners_of(half);
+    let system = BodyOnPlanes::on_plane(body, &corners, Plane::rising(0.0), law);
+    let (sin, cos) = TILT.sin_cos();
+    let centre = [
+        HALF[0] * cos - HALF[1] * sin,
+        HALF[0] * sin + HALF[1] * cos - 1e-12,
+    ];
+    let angle = TILT + 0.5 * PI * f64::from(quarters);
+    let q = [centre[0], centre[1], angle];
+    Stand::new(system, scheme, Settings::default(), [&q, &[0.0; 3]])
+}
+
+/// Distance of the corners from the centre, their angle, and the rate `p` of Housner, `p^2 = 3 g / (4 R)`.
+fn geometry() -> [f64; 3] {
+    let distance = HALF[0].hypot(HALF[1]);
+    let angle = HALF[0].atan2(HALF[1]);
+    [distance, angle, (0.75 * GRAVITY / distance).sqrt()]
+}
+
+/// Time until the block is upright: exact, by quadrature of `theta'^2 = 2 p^2 [cos(alpha - theta_0) - cos(alpha - theta)]`.
+fn quarter_period() -> f64 {
+    let [_, alpha, p] = geometry();
+    let points = 4000;
+    let h = 1.0 / f64::from(points);
+    let slice = |k: i32| {
+        // theta = theta_0 (1 - s^2) removes the singularity of the start.
+        let s = (f64::from(k) + 0.5) * h;
+        let theta = TILT * (1.0 - s * s);
+        let fall = (alpha - TILT).cos() - (alpha - theta).cos();
+        2.0 * TILT * s / (p * (2.0 * fall).sqrt())
+    };
+    h * (0..points).map(slice).sum::<f64>()
+}
+
+fn first_impact(stand: &mut Stand, dt: f64) -> f64 {
+    while stand.integrator.log.impacts == 0 {
+        stand.step(dt);
+    }
+    stand.integrator.log.first_impact.unwrap()
+}
+
+#[test]
+fn it_falls_in_the_time_of_housner() {
+    let [_, alpha, p] = geometry();
+    let exact = quarter_period();
+    // Small angles: theta = alpha - (alpha - theta_0) cosh(p t).
+    let housner = (1.0 / (1.0 - TILT / alpha)).acosh() / p;
+    assert!((housner / exact - 1.0).abs() < 0.01, "{housner} {exact}");
+    for case in SCHEMES {
+        for dt in [1e-3, 1e-4] {
+            let time = first_impact(&mut block(case.kind, 0.0, 0), dt);
+            let error = time - exact;
+            assert!(error.abs() < 1.1 * dt, "{case:?}: {error:e}");
+        }
+    }
+}
+
+#[test]
+fn the_other_corner_takes_speed_as_newton_has_it() {
+    let [distance, alpha, _] = geometry();
+    for restitution in [0.0, 0.17] {
+        // Angular momentum about the corner that hits, which leaves the floor with restitution; see the module's report.
+        let inertia = distance * distance / 3.0;
+        let [b, h] = HALF;
+        let kept = inertia + h * h - b * b * (1.0 + 2.0 * restitution);
+        let ratio = kept / (inertia + distance * distance);
+        if restitution == 0.0 {
+            let housner = 1.0 - 1.5 * alpha.sin().powi(2);
+            assert!((ratio - housner).abs() < 1e-14);
+        }
+        for case in SCHEMES {
+            let dt = 2e-5;
+            let mut stand = block(case.kind, restitution, 0);
+            let mut before = stand.v()[2];
+            while stand.integrator.log.impacts == 0 {
+                before = stand.v()[2];
+                stand.step(dt);
+            }
+            let seen = stand.v()[2] / before;
+            assert!((seen - ratio).abs() < 2e-3, "{case:?}: {seen} {ratio}");
+        }
+    }
+}
+
+#[test]
+fn all_corners_are_alike() {
+    for case in SCHEMES {
+        let run = |quarters: u8| {
+            let mut stand = block(case.kind, 0.1, quarters);
+            stand.steps(1500, 2e-4);
+            let turned = stand.q()[2] - 0.5 * PI * f64::from(quarters);
+            [stand.q()[0], stand.q()[1], turned]
+        };
+        let first = run(0);
+        for quarters in 1..4 {
+            let other = run(quarters);
+            for (a, b) in first.iter().zip(other) {
+                assert!((a - b).abs() < 1e-9, "{case:?} {quarters}: {a} {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn it_comes_to_rest_on_both_corners() {
+    for case in SCHEMES {
+        let mut stand = block(case.kind, 0.0, 0);
+        let mut energy = stand.integrator.energy();
+        for _ in 0..40_000 {
+            stand.step(1e-4);
+            let now = stand.integrator.energy();
+            assert!(now <= energy + 1e-6, "{case:?}: energy from nowhere");
+            energy = now.min(energy);
+        }
+        let turn = stand.q()[2];
+        assert!(turn.abs() < 1e-4, "{case:?}: {turn:e}");
+        assert!(stand.v().iter().all(|v| v.abs() < 1e-10), "{case:?}");
+        let forces = &stand.integrator.state.forces;
+        let normal = forces[0] + forces[2];
+        assert!(
+            (normal / (2.3 * GRAVITY) - 1.0).abs() < 1e-6,
+            "{case:?}: {normal}"
+        );
+    }
+}
