@@ -25,6 +25,10 @@ pub struct Settings {
     /// Whether accelerations are found anew behind an impact. Otherwise those before it go on, as in S2; then the schemes
     /// that carry accelerations lose their order.
     pub restarts_after_impacts: bool,
+    /// Whether a contact that presses stays closed even if its gap drifted above 0. Otherwise it opens then, as S2 eq. (41)
+    /// has it, and closes again with an impact; that happens where directions of contacts turn, as in rolling and rocking.
+    /// Moreau's rule always looks at the gap alone.
+    pub holds_pressed_contacts: bool,
     /// The iteration of a step ends when velocities change by less than this share of their size.
     pub tolerance: f64,
     /// Iterations of a step at most.
@@ -39,6 +43,7 @@ impl Default for Settings {
             level: Level::Velocity,
             has_consistent_start: true,
             restarts_after_impacts: true,
+            holds_pressed_contacts: true,
             tolerance: 1e-12,
             most_iterations: 50,
             contact: ContactSettings::default(),

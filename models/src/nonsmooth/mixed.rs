@@ -124,6 +124,9 @@ impl Integrator {
 
         self.mechanics.system.gaps(&self.next.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed_next);
+        if self.mechanics.settings.holds_pressed_contacts {
+            add_pressed(&self.mechanics, &self.next.forces, &mut self.closed_next);
+        }
         let mut log = self.log;
         let mut friction_power = 0.0;
         self.was_corrected = false;
@@ -187,6 +190,9 @@ impl Integrator {
     fn find_closed(&mut self) {
         self.mechanics.system.gaps(&self.state.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed);
+        if self.mechanics.settings.holds_pressed_contacts {
+            add_pressed(&self.mechanics, &self.state.forces, &mut self.closed);
+        }
     }
 
     fn unilateral_gaps(&self) -> impl Iterator<Item = f64> {
@@ -277,5 +283,12 @@ impl Integrator {
             }
         }
         power
+    }
+}
+
+/// Contacts that press are closed as well.
+fn add_pressed(mechanics: &Mechanics, forces: &[f64], closed: &mut [bool]) {
+    for (index, closed) in closed.iter_mut().enumerate() {
+        *closed |= forces[mechanics.first_row(index)] > 0.0;
     }
 }

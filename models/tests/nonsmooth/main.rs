@@ -4,9 +4,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod ball;
+mod bilateral;
 mod golden;
 mod golden_masses;
 mod golden_rigid;
 mod incline;
 mod rocking;
+mod slider;
 mod stand;

@@ -9,11 +9,12 @@ use linchpin_models::nonsmooth::system::MechanicalSystem;
 use linchpin_worker::Inputs;
 
 /// Conventions of S2 and of the golden files, where they differ from the default: accelerations at the start without contacts
-/// and carried over impacts.
+/// and carried over impacts, contacts closed by their gaps alone.
 pub const AS_PRINTED: Settings = Settings {
     level: Level::Velocity,
     has_consistent_start: false,
     restarts_after_impacts: false,
+    holds_pressed_contacts: false,
     tolerance: 1e-13,
     most_iterations: 50,
     contact: ContactSettings {
@@ -31,6 +32,13 @@ pub struct Case {
     pub order: f64,
     /// Order of contact forces there.
     pub force_order: f64,
+}
+
+impl Case {
+    /// Whether forces go on to and fro after contacts changed: what no scheme damps stays.
+    pub fn is_undamped(&self) -> bool {
+        self.kind == SchemeKind::GeneralizedAlpha { rho_inf: 1.0 }
+    }
 }
 
 const fn case(kind: SchemeKind, order: f64, force_order: f64) -> Case {

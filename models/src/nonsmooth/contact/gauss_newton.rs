@@ -45,6 +45,25 @@ impl GaussNewton {
         None
     }
 
+    /// Forces for which all relative velocities are 0, of least norm where they are not determined.
+    pub fn hold_all(&mut self, problem: &Problem, x: &mut Vec<f64>) {
+        let n = problem.len();
+        self.gradient.clear();
+        self.step.clear();
+        for row in 0..n {
+            let weight = 1.0 / problem.diagonal(row);
+            let entries = problem.row(row).iter().map(|g| weight * g);
+            self.gradient.extend(entries);
+            self.step.push(-weight * problem.free[row]);
+        }
+        x.clear();
+        if self.newton_step(n) {
+            x.extend_from_slice(&self.step);
+        } else {
+            x.resize(n, 0.0);
+        }
+    }
+
     /// `f` to `step`, its gradient to `gradient`.
     fn assemble(&mut self, problem: &Problem, jacobian: Jacobian, weights: Weights, x: &[f64]) {
         let n = problem.len();

@@ -64,13 +64,29 @@ const ROBUST_TOLERANCE: f64 = 1e-11;
 pub enum SolverKind {
     /// Nonsmooth Gauss-Newton from the forces of the last problem.
     GaussNewton,
-    /// The same from zero forces, since it failed from the last ones.
+    /// The same from zero forces, or from those that hold all contacts, since it failed from the last ones.
     GaussNewtonRestarted,
     /// Projections contact by contact.
     GaussSeidel,
     /// All contact states in turn.
     Enumeration,
 }
+
+/// Forces from which the Gauss-Newton iteration starts.
+#[derive(Debug, Clone, Copy)]
+enum Start {
+    Last,
+    Zero,
+    /// Those that hold all contacts, pulling where they must: sticking contacts of coupled stages are found from there.
+    Held,
+}
+
+/// Starts in the order in which they are tried.
+const STARTS: [(Start, SolverKind); 3] = [
+    (Start::Last, SolverKind::GaussNewton),
+    (Start::Zero, SolverKind::GaussNewtonRestarted),
+    (Start::Held, SolverKind::GaussNewtonRestarted),
+];
 
 /// What is told of a problem that was solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -176,13 +192,14 @@ impl ContactSolver {
             weights,
             tolerance,
         } = settings;
-        for solver in [SolverKind::GaussNewton, SolverKind::GaussNewtonRestarted] {
+        for (start, solver) in STARTS {
             self.trial.clear();
-            match solver {
-                SolverKind::GaussNewton => self.trial.extend_from_slice(x),
-                _ => self.trial.resize(x.len(), 0.0),
-            }
             let newton = &mut self.gauss_newton;
+            match start {
+                Start::Last => self.trial.extend_from_slice(x),
+                Start::Zero => self.trial.resize(x.len(), 0.0),
+                Start::Held => newton.hold_all(problem, &mut self.trial),
+            }
             let taken = newton.solve(problem, jacobian, weights, tolerance, &mut self.trial);
             if let Some(iterations) = taken {
                 x.copy_from_slice(&self.trial);
