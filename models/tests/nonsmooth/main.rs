@@ -9,6 +9,8 @@ mod golden;
 mod golden_masses;
 mod golden_rigid;
 mod incline;
+mod invariants;
 mod rocking;
 mod slider;
 mod stand;
+mod woodpecker;

@@ -52,8 +52,8 @@ impl LeastNorm {
                 }
                 is_changed = true;
                 let zeta = (qq - pp) / (2.0 * pq);
-                let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                let cosine = 1.0 / tangent.hypot(1.0);
+                let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
                 let sine = cosine * tangent;
                 rotate(first, second, cosine, sine);
                 let [first, second] = pair(&mut self.right, n, p, q);
