@@ -118,9 +118,12 @@ impl Integrator {
         };
         self.next.impulses.copy_from_slice(&self.state.impulses);
         self.next.tau = step.tau + dt;
+        let jams = self.mechanics.counters.jams;
         let outcome =
             self.scheme
                 .advance(&mut self.mechanics, step, &self.state, &mut self.next)?;
+        // An impact without collision: what the scheme made of it is no acceleration.
+        let has_jammed = self.mechanics.counters.jams > jams;
 
         self.mechanics.system.gaps(&self.next.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed_next);
@@ -134,11 +137,13 @@ impl Integrator {
             Outcome::Smooth => {
                 friction_power = self.friction_power_of_next();
                 log.friction_loss += 0.5 * dt * (self.friction_power + friction_power);
-                if closes_anew(&self.closed, &self.closed_next) {
+                let has_impact = closes_anew(&self.closed, &self.closed_next);
+                if has_impact {
                     self.correct(&mut log, drive)?;
-                    if self.mechanics.settings.restarts_after_impacts {
-                        self.accelerate(drive, Contacts::Acting)?;
-                    }
+                }
+                let restarts = self.mechanics.settings.restarts_after_impacts;
+                if restarts && (has_impact || has_jammed) {
+                    self.accelerate(drive, Contacts::Acting)?;
                     friction_power = self.friction_power_of_next();
                 }
             }

@@ -5,11 +5,15 @@
 
 mod ball;
 mod bilateral;
+mod contact_problems;
+mod defaults;
 mod golden;
 mod golden_masses;
 mod golden_rigid;
+mod hard;
 mod incline;
 mod invariants;
+mod painleve;
 mod rocking;
 mod slider;
 mod stand;

@@ -16,7 +16,7 @@ pub struct Example {
     /// Corner that closes first; its neighbour closes with it.
     corner: usize,
     /// Time, `g_N'` before, and coefficient of the first impact.
-    first: [f64; 3],
+    pub first: [f64; 3],
     /// Angles of crank and rod at 0.05 s.
     end: [f64; 2],
     /// Fastest approach of all impacts.

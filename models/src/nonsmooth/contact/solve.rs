@@ -1,7 +1,7 @@
 //! The order in which solvers are tried: what is fast first, what is robust behind it.
 
 use super::enumeration::{Count, Enumeration};
-use super::gauss_newton::GaussNewton;
+use super::gauss_newton::{Damping, GaussNewton, Method};
 use super::gauss_seidel;
 use super::problem::Problem;
 use super::uniqueness::Uniqueness;
@@ -64,7 +64,7 @@ const ROBUST_TOLERANCE: f64 = 1e-11;
 pub enum SolverKind {
     /// Nonsmooth Gauss-Newton from the forces of the last problem.
     GaussNewton,
-    /// The same from zero forces, or from those that hold all contacts, since it failed from the last ones.
+    /// The same from zero forces, or from those that hold all contacts, or with shorter steps.
     GaussNewtonRestarted,
     /// Projections contact by contact.
     GaussSeidel,
@@ -81,11 +81,14 @@ enum Start {
     Held,
 }
 
-/// Starts in the order in which they are tried.
-const STARTS: [(Start, SolverKind); 3] = [
-    (Start::Last, SolverKind::GaussNewton),
-    (Start::Zero, SolverKind::GaussNewtonRestarted),
-    (Start::Held, SolverKind::GaussNewtonRestarted),
+/// Attempts in the order in which they are made.
+const ATTEMPTS: [(Start, Damping); 6] = [
+    (Start::Last, Damping::None),
+    (Start::Zero, Damping::None),
+    (Start::Held, Damping::None),
+    (Start::Last, Damping::LineSearch),
+    (Start::Zero, Damping::LineSearch),
+    (Start::Held, Damping::LineSearch),
 ];
 
 /// What is told of a problem that was solved.
@@ -192,7 +195,7 @@ impl ContactSolver {
             weights,
             tolerance,
         } = settings;
-        for (start, solver) in STARTS {
+        for (attempt, (start, damping)) in ATTEMPTS.into_iter().enumerate() {
             self.trial.clear();
             let newton = &mut self.gauss_newton;
             match start {
@@ -200,9 +203,18 @@ impl ContactSolver {
                 Start::Zero => self.trial.resize(x.len(), 0.0),
                 Start::Held => newton.hold_all(problem, &mut self.trial),
             }
-            let taken = newton.solve(problem, jacobian, weights, tolerance, &mut self.trial);
-            if let Some(iterations) = taken {
+            let method = Method {
+                jacobian,
+                weights,
+                tolerance,
+                damping,
+            };
+            if let Some(iterations) = newton.solve(problem, method, &mut self.trial) {
                 x.copy_from_slice(&self.trial);
+                let solver = match attempt {
+                    0 => SolverKind::GaussNewton,
+                    _ => SolverKind::GaussNewtonRestarted,
+                };
                 return Ok(solved(solver, iterations, x));
             }
         }
