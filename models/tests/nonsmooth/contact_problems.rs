@@ -173,7 +173,7 @@ fn coupled_stages_of_friction_in_space_stick() {
     // ED-alpha with rho_inf = 1/2 where a sliding mass stops: from zero forces the iteration cycles between sliding states.
     let blocks = [[1.0, 1.0], [-1.0 / 3.0, 1.0 / 9.0]];
     let mut problem = Problem::default();
-    for stage in 0..2 {
+    for (stage, block) in blocks.into_iter().enumerate() {
         let normal = 3 * stage;
         let coefficient = 0.27;
         problem.laws.extend([
@@ -187,7 +187,7 @@ fn coupled_stages_of_friction_in_space_stick() {
         for row in 0..3 {
             let entry = |column: usize| {
                 if column % 3 == row {
-                    2.554_7e-4 * blocks[stage][column / 3]
+                    2.554_7e-4 * block[column / 3]
                 } else {
                     0.0
                 }

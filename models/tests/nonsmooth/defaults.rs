@@ -49,8 +49,8 @@ fn a_consistent_start_takes_the_drift_of_the_acceleration_level_away() {
     };
     let [_, printed] = unrest(scheme, level(AS_PRINTED));
     let [_, own] = unrest(scheme, level(Settings::default()));
-    eprintln!("{printed:e} {own:e}");
-    assert!(printed > 1e-2, "{printed:e}");
+    // g dt / 2.
+    assert!((printed / 0.024525 - 1.0).abs() < 1e-9, "{printed:e}");
     assert!(own < 1e-12, "{own:e}");
 }
 
@@ -77,10 +77,9 @@ fn a_restart_behind_impacts_keeps_the_order() {
             [true, false].map(|restarts| (run(scheme, restarts, dt) - reference).abs())
         });
         let [restarted, carried] = [0, 1].map(|kind| order(errors[0][kind], errors[1][kind]) / 2.0);
-        eprintln!("{scheme:?} {errors:?} {restarted} {carried}");
         assert!(restarted > 1.7, "{scheme:?}: {errors:?}");
         assert!(
-            carried < 1.3 && errors[1][1] > 8.0 * errors[1][0],
+            carried < 1.3 && errors[1][1] > 5.0 * errors[1][0],
             "{scheme:?}: {errors:?}"
         );
     }

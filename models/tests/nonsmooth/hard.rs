@@ -39,22 +39,22 @@ fn four_closed_corners_guide_like_a_constraint() {
     // No clearance: the corners can press against each other with any force.
     for friction in [0.0, 0.01] {
         for case in SCHEMES {
-            let dt = 1e-5;
+            let dt = 4e-5;
             let [mut corners, mut constraint] =
                 [Some(0.0), None].map(|clearance| slider(case.kind, clearance, friction));
-            corners.steps(2000, dt);
-            constraint.steps(2000, dt);
+            corners.steps(500, dt);
+            constraint.steps(500, dt);
             // Moreau's rule has errors of order 1, and they differ.
             let allowed = if case.kind == SchemeKind::Moreau {
-                3e-4
+                1e-3
             } else {
-                3e-7
+                5e-6
             };
             for (a, b) in corners.q().iter().zip(constraint.q()) {
                 assert!((a - b).abs() < allowed, "{case:?}: {a} {b}");
             }
             let log = corners.integrator.log;
-            assert!(log.penetration < 1e-5, "{case:?}: {}", log.penetration);
+            assert!(log.penetration < 1e-4, "{case:?}: {}", log.penetration);
             let [_, _, _, listed] = corners.integrator.mechanics.counters.contact_problems;
             assert_eq!(listed, 0, "{case:?}");
         }

@@ -158,8 +158,8 @@ fn in_space_it_slows_down_on_a_straight_line() {
         }
         let t = stand.t();
         let way = speed * t - 0.5 * deceleration * t * t;
-        for i in 0..2 {
-            let error = stand.q()[i] - way * v[i] / speed;
+        for (q, v) in stand.q().iter().zip(v) {
+            let error = q - way * v / speed;
             assert!(error.abs() < 1e-11, "{case:?}: {error:e}");
         }
         let loss = stand.integrator.log.friction_loss;

@@ -18,7 +18,11 @@ const TILT: f64 = 0.037;
 
 /// On its left lower corner, turned by `quarters` of a turn as well, so that other corners are the lower ones.
 fn block(scheme: SchemeKind, [b, h]: [f64; 2], restitution: f64, quarters: u8) -> Stand {
-    let half = if quarters % 2 == 0 { [b, h] } else { [h, b] };
+    let half = if quarters.is_multiple_of(2) {
+        [b, h]
+    } else {
+        [h, b]
+    };
     let body = Body::rectangle(2.3, half, GRAVITY);
     let law = CornerLaw {
         normal_restitution: restitution,
@@ -90,7 +94,7 @@ fn it_falls_in_the_time_of_housner() {
 fn the_other_corner_takes_speed_as_newton_has_it() {
     let [distance, alpha, _] = geometry();
     for restitution in [0.0, 0.17] {
-        // Angular momentum about the corner that hits, which leaves the floor with restitution; see the module's report.
+        // Angular momentum about the corner that hits is kept; that corner sticks and leaves with restitution.
         let inertia = distance * distance / 3.0;
         let [b, h] = SLENDER;
         let kept = inertia + h * h - b * b * (1.0 + 2.0 * restitution);
