@@ -5,7 +5,8 @@
 //!
 //! * [`problem`]: the problem, its laws as projections, its residual;
 //! * [`solve`]: the order in which solvers are tried, and what is told about it;
-//! * [`gauss_newton`]: nonsmooth Gauss-Newton iteration (S2 eq. 43), with [`least_norm`] where contacts depend on each other;
+//! * [`gauss_newton`]: nonsmooth Gauss-Newton iteration (S2 eq. 43), with [`least_norm`] where contacts depend on each
+//!   other;
 //! * [`gauss_seidel`]: projections contact by contact, for dependent contacts where the iteration fails;
 //! * [`uniqueness`]: whether a problem has one solution for sure;
 //! * [`enumeration`]: all contact states in turn, which tells whether there is no solution or more than one.

@@ -22,12 +22,12 @@ pub struct Settings {
     /// Whether the accelerations at the start agree with closed contacts. Otherwise they are those without contacts, as
     /// printed in S2 eqs. (25), (62), (83); then a constraint drifts and its force oscillates.
     pub has_consistent_start: bool,
-    /// Whether accelerations are found anew behind an impact. Otherwise those before it go on, as in S2; then the schemes
-    /// that carry accelerations lose their order.
+    /// Whether accelerations are found anew behind an impact. Otherwise those before it go on, as in S2; then the
+    /// schemes that carry accelerations lose their order.
     pub restarts_after_impacts: bool,
-    /// Whether a contact that presses stays closed even if its gap drifted above 0. Otherwise it opens then, as S2 eq. (41)
-    /// has it, and closes again with an impact; that happens where directions of contacts turn, as in rolling and rocking.
-    /// Moreau's rule always looks at the gap alone.
+    /// Whether a contact that presses stays closed even if its gap drifted above 0. Otherwise it opens then, as S2 eq.
+    /// (41) has it, and closes again with an impact; that happens where directions of contacts turn, as in rolling and
+    /// rocking. Moreau's rule always looks at the gap alone.
     pub holds_pressed_contacts: bool,
     /// The iteration of a step ends when velocities change by less than this share of their size.
     pub tolerance: f64,
@@ -62,8 +62,8 @@ pub struct Counters {
     pub evaluations: u64,
     /// Factorisations of matrices of the size of the system; those of two coupled stages count as one.
     pub factorisations: u64,
-    /// Contact problems that were not empty, by the solver that solved them: Gauss-Newton, the same restarted, Gauss-Seidel,
-    /// enumeration.
+    /// Contact problems that were not empty, by the solver that solved them: Gauss-Newton, the same restarted,
+    /// Gauss-Seidel, enumeration.
     pub contact_problems: [u64; 4],
     /// Iterations of their solvers.
     pub contact_iterations: u64,
@@ -247,7 +247,8 @@ impl Mechanics {
         self.active_rows.clear();
     }
 
-    /// Adds the laws of the contacts that take part, on velocity level; `offset` is the number of rows of earlier stages.
+    /// Adds the laws of the contacts that take part, on velocity level; `offset` is the number of rows of earlier
+    /// stages.
     pub fn add_laws(&mut self, active: &[bool], offset: usize) {
         for (index, contact) in self.contacts.iter().enumerate() {
             if !active[index] {
@@ -284,8 +285,8 @@ impl Mechanics {
         &self.directions[self.active_rows[row] * self.order()..][..self.order()]
     }
 
-    /// Fills in `G = factor L M^-1 W` with the mass matrix that was factored last, and keeps `M^-1 W`. The rows of `L` are
-    /// those that the laws are for: `W^T`, or other `laws`.
+    /// Fills in `G = factor L M^-1 W` with the mass matrix that was factored last, and keeps `M^-1 W`. The rows of `L`
+    /// are those that the laws are for: `W^T`, or other `laws`.
     pub fn add_delassus(&mut self, factor: f64, laws: Option<&[f64]>) {
         let n = self.order();
         self.responses.clear();

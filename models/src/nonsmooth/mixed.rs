@@ -1,5 +1,5 @@
-//! Mixed timestepping (S2 Sect. 2.3, Fig. 4): a step without impacts by a base scheme, corrected by impulses where a contact
-//! closes in it.
+//! Mixed timestepping (S2 Sect. 2.3, Fig. 4): a step without impacts by a base scheme, corrected by impulses where a
+//! contact closes in it.
 
 use super::activity::{closed_contacts, closes_anew};
 use super::impact;
@@ -21,8 +21,8 @@ pub struct ContactLog {
     pub impulse: f64,
     /// Energy that impacts took (J); of an impulsive scheme what contacts took in steps with an impact.
     pub impact_loss: f64,
-    /// Energy that friction took between impacts (J), by the trapezoidal rule; of an impulsive scheme what contacts took in
-    /// the other steps.
+    /// Energy that friction took between impacts (J), by the trapezoidal rule; of an impulsive scheme what contacts
+    /// took in the other steps.
     pub friction_loss: f64,
     /// Deepest penetration, `-g_N` (m).
     pub penetration: f64,
@@ -251,8 +251,8 @@ impl Integrator {
         }
     }
 
-    /// Energy that the forces of an impulsive scheme took over the step: `-dt lambda^T W^T (v_i + v_{i+1}) / 2`, with the `W`
-    /// that was evaluated last. For the midpoint rule that is all that contacts take.
+    /// Energy that the forces of an impulsive scheme took over the step: `-dt lambda^T W^T (v_i + v_{i+1}) / 2`, with
+    /// the `W` that was evaluated last. For the midpoint rule that is all that contacts take.
     fn loss_by_impulses(&self, dt: f64) -> f64 {
         let n = self.next.v.len();
         let rows = self.mechanics.directions.chunks_exact(n.max(1));

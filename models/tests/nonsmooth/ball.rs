@@ -1,5 +1,5 @@
-//! The bouncing ball, all schemes, against closed forms. Free flight is exact for all of them, so that the state before the
-//! first impact has no error and the impact is noticed up to one step late.
+//! The bouncing ball, all schemes, against closed forms. Free flight is exact for all of them, so that the state before
+//! the first impact has no error and the impact is noticed up to one step late.
 
 use linchpin_models::nonsmooth::mechanics::Settings;
 use linchpin_models::nonsmooth::schemes::SchemeKind;

@@ -170,7 +170,8 @@ fn contacts_that_depend_on_each_other_share_their_force() {
 
 #[test]
 fn coupled_stages_of_friction_in_space_stick() {
-    // ED-alpha with rho_inf = 1/2 where a sliding mass stops: from zero forces the iteration cycles between sliding states.
+    // ED-alpha with rho_inf = 1/2 where a sliding mass stops: from zero forces the iteration cycles between sliding
+    // states.
     let blocks = [[1.0, 1.0], [-1.0 / 3.0, 1.0 / 9.0]];
     let mut problem = Problem::default();
     for (stage, block) in blocks.into_iter().enumerate() {

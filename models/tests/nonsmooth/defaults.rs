@@ -8,8 +8,8 @@ use linchpin_models::nonsmooth::systems::masses::{End, Masses};
 use super::slider::examples;
 use super::stand::{AS_PRINTED, Stand, order};
 
-/// The model problem (b) of S2 Sect. 2.8: amplitude of what the force does to and fro, and the largest velocity of the mass
-/// that is held, both over the second of two seconds.
+/// The model problem (b) of S2 Sect. 2.8: amplitude of what the force does to and fro, and the largest velocity of the
+/// mass that is held, both over the second of two seconds.
 fn unrest(scheme: SchemeKind, settings: Settings) -> [f64; 2] {
     let system = Masses {
         springs: [10.0; 3],
@@ -56,7 +56,8 @@ fn a_consistent_start_takes_the_drift_of_the_acceleration_level_away() {
 
 #[test]
 fn a_restart_behind_impacts_keeps_the_order() {
-    // The first example shortly behind its first impact, which all schemes note in the same step. HETS carries nothing over.
+    // The first example shortly behind its first impact, which all schemes note in the same step. HETS carries nothing
+    // over.
     let [example, _] = examples();
     let run = |scheme: SchemeKind, restarts: bool, dt: f64| {
         let settings = Settings {

@@ -1,4 +1,5 @@
-//! Hard cases: contacts whose forces are not determined, perfect and no restitution, steps at and beyond limits of stability.
+//! Hard cases: contacts whose forces are not determined, perfect and no restitution, steps at and beyond limits of
+//! stability.
 
 use linchpin_models::nonsmooth::mechanics::{Settings, StepError};
 use linchpin_models::nonsmooth::schemes::SchemeKind;

@@ -1,5 +1,5 @@
-//! A block on an incline and a mass that slides in space, all schemes, against closed forms. Constant accelerations are exact
-//! for all of them.
+//! A block on an incline and a mass that slides in space, all schemes, against closed forms. Constant accelerations are
+//! exact for all of them.
 
 use linchpin_models::nonsmooth::mechanics::Settings;
 use linchpin_models::nonsmooth::schemes::SchemeKind;
@@ -183,8 +183,8 @@ fn in_space_it_slows_down_on_a_straight_line() {
 
 #[test]
 fn in_space_it_turns_downhill() {
-    // With mu = tan(angle), |v| + v_x is constant: friction takes from |v| what gravity gives to v_x. HETS takes both its
-    // friction forces along velocities at the end of the step, so that it has order 1 where their direction turns.
+    // With mu = tan(angle), |v| + v_x is constant: friction takes from |v| what gravity gives to v_x. HETS takes both
+    // its friction forces along velocities at the end of the step, so that it has order 1 where their direction turns.
     for case in SCHEMES {
         let error = |dt: f64| {
             let mut stand = mass(case.kind, ANGLE, ANGLE.tan(), [0.11, 0.97]);

@@ -1,4 +1,5 @@
-//! What holds at every step of every system under all schemes: laws of contact, momentum at impacts, energy with its losses.
+//! What holds at every step of every system under all schemes: laws of contact, momentum at impacts, energy with its
+//! losses.
 
 use linchpin_models::nonsmooth::matrix::{BorderedBand, dot};
 use linchpin_models::nonsmooth::mechanics::Settings;
@@ -160,8 +161,8 @@ fn step(stand: &mut Stand, case: &Case, dt: f64, sizes: &mut Sizes) {
     }
 }
 
-/// Runs until `end`; the largest deviation of energy and losses, as a share of `size`. A constant torque acts on the first
-/// coordinate.
+/// Runs until `end`; the largest deviation of energy and losses, as a share of `size`. A constant torque acts on the
+/// first coordinate.
 fn balance(mut stand: Stand, case: &Case, end: f64, dt: f64, [size, torque]: [f64; 2]) -> f64 {
     let start = stand.integrator.energy();
     let mut sizes = [1e-30; 3];
@@ -176,8 +177,8 @@ fn balance(mut stand: Stand, case: &Case, end: f64, dt: f64, [size, torque]: [f6
     worst / size
 }
 
-/// All schemes with two steps: the deviation of the energy is at most `allowed` times the step (1/s), for the mixed schemes
-/// and for Moreau's rule. Where contacts do not change it is of higher order.
+/// All schemes with two steps: the deviation of the energy is at most `allowed` times the step (1/s), for the mixed
+/// schemes and for Moreau's rule. Where contacts do not change it is of higher order.
 fn check(
     build: impl Fn(SchemeKind) -> Stand,
     end: f64,

@@ -1,8 +1,8 @@
-//! Painleve's rod: a slender rod slides on a rough floor, its lower end ahead. Its contact problem has no solution or several,
-//! which must be told.
+//! Painleve's rod: a slender rod slides on a rough floor, its lower end ahead. Its contact problem has no solution or
+//! several, which must be told.
 //!
-//! Rod of length `2 l` at the angle `theta`: `G_NN = (1 + 3 cos^2) / m`, `G_NT = +-3 sin cos / m`. A sliding end jams for
-//! `mu >= (1 + 3 cos^2) / (3 sin cos)`: 5/3 at 45 degrees, and 4/3 at `tan(theta) = 2`, where it is least.
+//! Rod of length `2 l` at the angle `theta`: `G_NN = (1 + 3 cos^2) / m`, `G_NT = +-3 sin cos / m`. A sliding end jams
+//! for `mu >= (1 + 3 cos^2) / (3 sin cos)`: 5/3 at 45 degrees, and 4/3 at `tan(theta) = 2`, where it is least.
 
 use linchpin_models::nonsmooth::contact::Unsolved;
 use linchpin_models::nonsmooth::mechanics::{Settings, StepError};

@@ -1,5 +1,5 @@
-//! A rocking block, all schemes, against Housner 1963: a block that stands on a corner falls back, and its other corner hits
-//! the floor.
+//! A rocking block, all schemes, against Housner 1963: a block that stands on a corner falls back, and its other corner
+//! hits the floor.
 
 use std::f64::consts::PI;
 
@@ -45,7 +45,8 @@ fn geometry() -> [f64; 3] {
     [distance, angle, (0.75 * GRAVITY / distance).sqrt()]
 }
 
-/// Time until the block is upright: exact, by quadrature of `theta'^2 = 2 p^2 [cos(alpha - theta_0) - cos(alpha - theta)]`.
+/// Time until the block is upright: exact, by quadrature of `theta'^2 = 2 p^2 [cos(alpha - theta_0) - cos(alpha -
+/// theta)]`.
 fn quarter_period() -> f64 {
     let [_, alpha, p] = geometry();
     let points = 4000;

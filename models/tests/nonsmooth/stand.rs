@@ -8,8 +8,8 @@ use linchpin_models::nonsmooth::state::Drive;
 use linchpin_models::nonsmooth::system::MechanicalSystem;
 use linchpin_worker::Inputs;
 
-/// Conventions of S2 and of the golden files, where they differ from the default: accelerations at the start without contacts
-/// and carried over impacts, contacts closed by their gaps alone.
+/// Conventions of S2 and of the golden files, where they differ from the default: accelerations at the start without
+/// contacts and carried over impacts, contacts closed by their gaps alone.
 pub const AS_PRINTED: Settings = Settings {
     level: Level::Velocity,
     has_consistent_start: false,

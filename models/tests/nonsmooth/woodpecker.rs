@@ -1,8 +1,9 @@
 //! The woodpecker toy, all schemes, against published figures.
 //!
-//! Leine, Glocker & van Campen (2001) find a periodic motion with a period of about 0.145 s. The start below is a state of it
-//! that circulates with their data: the sleeve slides down, closed at its lower edge, and the beak swings out. With Moreau's
-//! rule other codes (Siconos, steps of 20 us) take 0.146 s from there to the same place of the bird and fall by 19.5 mm.
+//! Leine, Glocker & van Campen (2001) find a periodic motion with a period of about 0.145 s. The start below is a state
+//! of it that circulates with their data: the sleeve slides down, closed at its lower edge, and the beak swings out.
+//! With Moreau's rule other codes (Siconos, steps of 20 us) take 0.146 s from there to the same place of the bird and
+//! fall by 19.5 mm.
 
 use linchpin_models::nonsmooth::mechanics::Settings;
 use linchpin_models::nonsmooth::systems::woodpecker::{Toy, Woodpecker};

@@ -188,8 +188,9 @@ impl GaussNewton {
         }
     }
 
-    /// `step` becomes the step from `x` to a zero of the linearised problem; whether it is finite. Where rows depend on each
-    /// other it goes to the zero of least norm, whatever stress between contacts `x` has: that would make friction.
+    /// `step` becomes the step from `x` to a zero of the linearised problem; whether it is finite. Where rows depend on
+    /// each other it goes to the zero of least norm, whatever stress between contacts `x` has: that would make
+    /// friction.
     fn newton_step(&mut self, x: &[f64]) -> bool {
         let n = x.len();
         self.kept.clear();

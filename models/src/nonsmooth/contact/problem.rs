@@ -133,9 +133,10 @@ impl Problem {
         }
     }
 
-    /// Whether the forces `x` press a contact that jams: sliding as it does without forces, it would make so much friction
-    /// that its normal force closes its gap further, `G_NN + G_NT lambda_T / lambda_N <= 0` (Painleve). Then friction stops it
-    /// at once, by an impact without collision: its force is that of a jump of the velocities within the step.
+    /// Whether the forces `x` press a contact that jams: sliding as it does without forces, it would make so much
+    /// friction that its normal force closes its gap further, `G_NN + G_NT lambda_T / lambda_N <= 0` (Painleve). Then
+    /// friction stops it at once, by an impact without collision: its force is that of a jump of the velocities within
+    /// the step.
     pub fn jams(&self, x: &[f64]) -> bool {
         let jams = |normal: usize, coupling: f64| {
             matches!(self.laws[normal], Law::Normal)

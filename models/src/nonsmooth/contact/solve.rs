@@ -41,8 +41,8 @@ pub struct ContactSettings {
     pub jacobian: Jacobian,
     /// Parameter of the projections.
     pub weights: Weights,
-    /// Largest residual that is a solution, as a share of the velocities that balance each other. Larger: forces of a step
-    /// are less accurate than its motion; smaller than 1e-14: rounding does not allow it.
+    /// Largest residual that is a solution, as a share of the velocities that balance each other. Larger: forces of a
+    /// step are less accurate than its motion; smaller than 1e-14: rounding does not allow it.
     pub tolerance: f64,
 }
 

@@ -1,14 +1,14 @@
 //! Whether a contact problem has one solution for sure.
 //!
 //! Its laws are linear in each contact state: open, sticking, sliding one way or the other. If the determinants of all
-//! combinations of states are positive, then there is one solution and not more, whatever the free velocities (a piecewise
-//! linear map of degree 1 that keeps the orientation in all its pieces; Scholtes 2012). They are positive if and only if
-//! all pivots of Gauss' elimination are, contact by contact through the tree of states: a contact that is open is left
-//! out, a sliding one has the normal column `G_N + sum f G_T` with the factors `f` of its friction.
+//! combinations of states are positive, then there is one solution and not more, whatever the free velocities (a
+//! piecewise linear map of degree 1 that keeps the orientation in all its pieces; Scholtes 2012). They are positive if
+//! and only if all pivots of Gauss' elimination are, contact by contact through the tree of states: a contact that is
+//! open is left out, a sliding one has the normal column `G_N + sum f G_T` with the factors `f` of its friction.
 //!
-//! The rows of a contact must be neighbours, the normal one first. Pivots that are rounding belong to contacts that depend
-//! on others: their forces are not determined, their velocities are. In space the directions of sliding are many; those are
-//! tried that couple most with the normal direction.
+//! The rows of a contact must be neighbours, the normal one first. Pivots that are rounding belong to contacts that
+//! depend on others: their forces are not determined, their velocities are. In space the directions of sliding are
+//! many; those are tried that couple most with the normal direction.
 
 use super::problem::{Law, Problem};
 

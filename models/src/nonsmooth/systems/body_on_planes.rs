@@ -1,7 +1,8 @@
 //! A rigid body in the plane whose corners touch planes: a block on an incline, a rocking block, a rod on the floor.
 //!
 //! Coordinates: centre of mass and angle, `q = (x, y, theta)` (m, m, rad). A corner `p` of the body is at
-//! `r = (x, y) + R(theta) p`; a plane has the unit normal `n`, and its tangent is `t = (n_y, -n_x)`. With `R' = dR/dtheta`
+//! `r = (x, y) + R(theta) p`; a plane has the unit normal `n`, and its tangent is `t = (n_y, -n_x)`. With
+//! `R' = dR/dtheta`
 //!
 //! ```text
 //! g_N = n . r - d,   W_N^T = (n_x, n_y, n . R' p),   W_T^T = (t_x, t_y, t . R' p)

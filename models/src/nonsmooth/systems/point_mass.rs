@@ -3,8 +3,8 @@
 use crate::nonsmooth::matrix::{BorderedBand, Shape};
 use crate::nonsmooth::system::{Contact, Instant, MechanicalSystem, Side};
 
-/// A ball over the floor. One coordinate, the height of its lowest point (m), which is its gap as well. Input, if there is
-/// one: a force upwards (N).
+/// A ball over the floor. One coordinate, the height of its lowest point (m), which is its gap as well. Input, if there
+/// is one: a force upwards (N).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BouncingBall {
     mass: f64,
@@ -63,8 +63,8 @@ impl MechanicalSystem for BouncingBall {
     }
 }
 
-/// A mass on a plane in space. Coordinates: two in the plane and the distance from it (m), which is the gap. Inputs, as many
-/// as there are: forces along the coordinates (N).
+/// A mass on a plane in space. Coordinates: two in the plane and the distance from it (m), which is the gap. Inputs, as
+/// many as there are: forces along the coordinates (N).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlidingMass {
     mass: f64,
@@ -73,8 +73,8 @@ pub struct SlidingMass {
 }
 
 impl SlidingMass {
-    /// With a mass (kg), the acceleration of gravity along the coordinates (m/s^2), whose third component presses the mass on
-    /// the plane where it is negative, and a coefficient of friction. It does not bounce.
+    /// With a mass (kg), the acceleration of gravity along the coordinates (m/s^2), whose third component presses the
+    /// mass on the plane where it is negative, and a coefficient of friction. It does not bounce.
     pub fn new(mass: f64, gravity: [f64; 3], friction: f64) -> Self {
         let contact = Contact {
             side: Side::Unilateral,

@@ -1,8 +1,8 @@
-//! The woodpecker toy (Glocker 1995; Pfeiffer & Glocker 1996; Leine, Glocker & van Campen 2001 and 2003): a bird on a spring at
-//! a sleeve that slides down a pole, jams, and is freed by the stroke of the beak.
+//! The woodpecker toy (Glocker 1995; Pfeiffer & Glocker 1996; Leine, Glocker & van Campen 2001 and 2003): a bird on a
+//! spring at a sleeve that slides down a pole, jams, and is freed by the stroke of the beak.
 //!
-//! Coordinates: height of the sleeve, angles of sleeve and bird, `q = (y, phi_M, phi_S)` (m, rad, rad), linear for small
-//! angles. Contacts: beak (1), lower edge (2) and upper edge (3) of the sleeve, all against the pole.
+//! Coordinates: height of the sleeve, angles of sleeve and bird, `q = (y, phi_M, phi_S)` (m, rad, rad), linear for
+//! small angles. Contacts: beak (1), lower edge (2) and upper edge (3) of the sleeve, all against the pole.
 //!
 //! ```text
 //!     | m_S + m_M   m_S l_M           m_S l_G         |        f_1 = -(m_S + m_M) g
