@@ -5,7 +5,7 @@
 //! * [`mixed`]: the algorithm, one step from top to bottom (Fig. 4);
 //! * [`schemes`]: what advances a step without impacts, a file each; [`stages`]: their implicit equations;
 //! * [`activity`], [`impact`], [`start`]: which contacts take part, the impulsive correction, accelerations at an instant;
-//! * [`contact`]: the contact problem and its solvers;
+//! * [`contact`]: the contact problem and its solvers; [`contact_log`]: what contacts did;
 //! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and counters;
 //! * [`systems`]: mechanical systems; `subsystem`: any of them behind the worker protocol;
 //! * [`state`]: plain values between steps; [`matrix`]: matrices with a border and a band;
@@ -13,6 +13,7 @@
 
 pub mod activity;
 pub mod contact;
+pub mod contact_log;
 pub mod impact;
 pub mod matrix;
 pub mod mechanics;

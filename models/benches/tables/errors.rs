@@ -64,6 +64,7 @@ fn unilateral_tables(text: &mut String) {
             Settings {
                 restarts_after_impacts: false,
                 has_consistent_start: false,
+                holds_pressed_contacts: false,
                 ..SETTINGS
             },
         ),

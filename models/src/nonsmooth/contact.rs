@@ -5,8 +5,10 @@
 //!
 //! * [`problem`]: the problem, its laws as projections, its residual;
 //! * [`solve`]: the order in which solvers are tried, and what is told about it;
-//! * [`gauss_newton`]: nonsmooth Gauss-Newton iteration (S2 eq. 43), with [`least_norm`] where contacts depend on each other;
+//! * [`gauss_newton`]: nonsmooth Gauss-Newton iteration (S2 eq. 43), with [`least_norm`] where contacts depend on each
+//!   other;
 //! * [`gauss_seidel`]: projections contact by contact, for dependent contacts where the iteration fails;
+//! * [`uniqueness`]: whether a problem has one solution for sure;
 //! * [`enumeration`]: all contact states in turn, which tells whether there is no solution or more than one.
 
 pub mod enumeration;
@@ -15,6 +17,7 @@ pub mod gauss_seidel;
 pub mod least_norm;
 pub mod problem;
 pub mod solve;
+pub mod uniqueness;
 
 pub use problem::{Law, Problem};
 pub use solve::{

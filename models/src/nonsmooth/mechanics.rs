@@ -23,9 +23,13 @@ pub struct Settings {
     /// Whether the accelerations at the start agree with closed contacts. Otherwise they are those without contacts, as
     /// printed in S2 eqs. (25), (62), (83); then a constraint drifts and its force oscillates.
     pub has_consistent_start: bool,
-    /// Whether accelerations are found anew behind an impact. Otherwise those before it go on, as in S2; then the schemes
-    /// that carry accelerations lose their order.
+    /// Whether accelerations are found anew behind an impact. Otherwise those before it go on, as in S2; then the
+    /// schemes that carry accelerations lose their order.
     pub restarts_after_impacts: bool,
+    /// Whether a contact that presses stays closed even if its gap drifted above 0. Otherwise it opens then, as S2 eq.
+    /// (41) has it, and closes again with an impact; that happens where directions of contacts turn, as in rolling and
+    /// rocking. Moreau's rule always looks at the gap alone.
+    pub holds_pressed_contacts: bool,
     /// The iteration of a step ends when velocities change by less than this share of their size.
     pub tolerance: f64,
     /// Iterations of a step at most.
@@ -39,6 +43,7 @@ pub const DEFAULT: Settings = Settings {
     level: Level::Velocity,
     has_consistent_start: true,
     restarts_after_impacts: true,
+    holds_pressed_contacts: true,
     tolerance: 1e-12,
     most_iterations: 50,
     contact: super::contact::DEFAULT,
@@ -61,13 +66,15 @@ pub struct Counters {
     pub evaluations: u64,
     /// Factorisations of matrices of the size of the system; those of two coupled stages count as one.
     pub factorisations: u64,
-    /// Contact problems that were not empty, by the solver that solved them: Gauss-Newton, the same restarted, Gauss-Seidel,
-    /// enumeration.
+    /// Contact problems that were not empty, by the solver that solved them: Gauss-Newton, the same restarted,
+    /// Gauss-Seidel, enumeration.
     pub contact_problems: [u64; 4],
     /// Iterations of their solvers.
     pub contact_iterations: u64,
     /// Contact problems with several solutions (Painleve).
     pub ambiguous: u64,
+    /// Contact problems in which a pressed contact jams: its force is that of an impact without collision (Painleve).
+    pub jams: u64,
     /// Largest residual of a contact problem (m/s).
     pub largest_residual: f64,
     /// Largest change of the velocities in the last iteration of a step, as a share of their size.
@@ -129,6 +136,8 @@ pub struct Mechanics {
     pub factors: Factors,
     /// `W^T`, all rows.
     pub directions: Vec<f64>,
+    /// `(dW^T/dt) v`, all rows.
+    pub rates: Vec<f64>,
     /// `M^-1 W`, for the rows that take part.
     responses: Vec<f64>,
 }
@@ -164,6 +173,7 @@ impl Mechanics {
             factors: Factors::new(shape),
             directions: vec![0.0; rows * shape.order()],
             responses: Vec::with_capacity(rows * shape.order()),
+            rates: vec![0.0; rows],
             contacts,
             system,
         }
@@ -246,7 +256,8 @@ impl Mechanics {
         self.active_rows.clear();
     }
 
-    /// Adds the laws of the contacts that take part, on velocity level; `offset` is the number of rows of earlier stages.
+    /// Adds the laws of the contacts that take part, on velocity level; `offset` is the number of rows of earlier
+    /// stages.
     pub fn add_laws(&mut self, active: &[bool], offset: usize) {
         for (index, contact) in self.contacts.iter().enumerate() {
             if !active[index] {
@@ -283,8 +294,8 @@ impl Mechanics {
         &self.directions[self.active_rows[row] * self.order()..][..self.order()]
     }
 
-    /// Fills in `G = factor L M^-1 W` with the mass matrix that was factored last, and keeps `M^-1 W`. The rows of `L` are
-    /// those that the laws are for: `W^T`, or other `laws`.
+    /// Fills in `G = factor L M^-1 W` with the mass matrix that was factored last, and keeps `M^-1 W`. The rows of `L`
+    /// are those that the laws are for: `W^T`, or other `laws`.
     pub fn add_delassus(&mut self, factor: f64, laws: Option<&[f64]>) {
         let n = self.order();
         self.responses.clear();
@@ -370,6 +381,7 @@ impl Mechanics {
         counters.contact_problems[place] += 1;
         counters.contact_iterations += solved.iterations as u64;
         counters.ambiguous += u64::from(solved.is_ambiguous);
+        counters.jams += u64::from(solved.jams);
         counters.largest_residual = counters.largest_residual.max(solved.residual);
     }
 }

@@ -1,70 +1,17 @@
-//! Mixed timestepping (S2 Sect. 2.3, Fig. 4): a step without impacts by a base scheme, corrected by impulses where a contact
-//! closes in it.
+//! Mixed timestepping (S2 Sect. 2.3, Fig. 4): a step without impacts by a base scheme, corrected by impulses where a
+//! contact closes in it.
+
+mod losses;
+mod memory;
 
 use super::activity::{closed_contacts, closes_anew};
+use super::contact_log::ContactLog;
 use super::impact;
-use super::matrix::dot;
 use super::mechanics::{Mechanics, Settings, StepError};
 use super::schemes::{Outcome, Scheme, SchemeError, SchemeKind};
-use super::start::{Contacts, accelerate};
+use super::start::{Contacts, accelerate, relative_velocity};
 use super::state::{Drive, State, Step};
 use super::system::{MechanicalSystem, Side};
-
-/// What contacts did since the start of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ContactLog {
-    /// Impacts: steps that were corrected.
-    pub impacts: u64,
-    /// Time of the first one (s); `None` before.
-    pub first_impact: Option<f64>,
-    /// Sum of all normal impulses (N s).
-    pub impulse: f64,
-    /// Energy that impacts took (J).
-    pub impact_loss: f64,
-    /// Energy that friction took between impacts (J), by the trapezoidal rule.
-    pub friction_loss: f64,
-    /// Deepest penetration, `-g_N` (m).
-    pub penetration: f64,
-}
-
-impl ContactLog {
-    /// Numbers of a log.
-    pub const NUMBERS: usize = 6;
-
-    /// As plain numbers; no first impact is not a number.
-    fn numbers(&self) -> [f64; Self::NUMBERS] {
-        [
-            self.impacts as f64,
-            self.first_impact.unwrap_or(f64::NAN),
-            self.impulse,
-            self.impact_loss,
-            self.friction_loss,
-            self.penetration,
-        ]
-    }
-
-    fn take(&mut self, numbers: &[f64]) {
-        let &[
-            impacts,
-            first,
-            impulse,
-            impact_loss,
-            friction_loss,
-            penetration,
-        ] = numbers
-        else {
-            return;
-        };
-        *self = Self {
-            impacts: impacts as u64,
-            first_impact: Some(first).filter(|first| !first.is_nan()),
-            impulse,
-            impact_loss,
-            friction_loss,
-            penetration,
-        };
-    }
-}
 
 /// A system with a scheme in motion.
 pub struct Integrator {
@@ -79,6 +26,10 @@ pub struct Integrator {
     gaps: Vec<f64>,
     closed: Vec<bool>,
     closed_next: Vec<bool>,
+    /// Velocities before the impulses of the last correction.
+    before_impact: Vec<f64>,
+    /// Whether the last step was corrected.
+    was_corrected: bool,
     /// Power that friction takes at the start of the step (W).
     friction_power: f64,
 }
@@ -108,33 +59,34 @@ impl Integrator {
             gaps: vec![0.0; contacts],
             closed: vec![false; contacts],
             closed_next: vec![false; contacts],
+            before_impact: vec![0.0; q.len()],
+            was_corrected: false,
             friction_power: 0.0,
             mechanics,
         })
     }
 
-    /// Accelerations at the start.
+    /// Accelerations at the start. With a consistent start, closed contacts that approach each other collide first.
     ///
     /// # Errors
     /// [`StepError`].
     pub fn start(&mut self, drive: Drive<'_>) -> Result<(), StepError> {
-        let contacts = if self.mechanics.settings.has_consistent_start {
-            Contacts::Acting
-        } else {
-            Contacts::Ignored
-        };
         self.find_closed();
+        self.next.copy_from(&self.state);
         self.closed_next.copy_from_slice(&self.closed);
-        // Forces of an earlier call must not decide where the contact solver begins.
-        self.state.forces.fill(0.0);
-        let closed = &mut self.closed_next;
-        accelerate(
-            &mut self.mechanics,
-            drive,
-            contacts,
-            closed,
-            &mut self.state,
-        )
+        let mut log = self.log;
+        if !self.mechanics.settings.has_consistent_start {
+            self.accelerate(drive, Contacts::Ignored)?;
+        } else if self.approaches() {
+            self.correct(&mut log, drive)?;
+            self.accelerate(drive, Contacts::Acting)?;
+        } else {
+            self.accelerate(drive, Contacts::Acting)?;
+        }
+        self.friction_power = self.friction_power_of_next();
+        self.log = log;
+        std::mem::swap(&mut self.state, &mut self.next);
+        Ok(())
     }
 
     /// One step of length `dt`. A step that fails leaves the state as it was.
@@ -151,20 +103,42 @@ impl Integrator {
         };
         self.next.impulses.copy_from_slice(&self.state.impulses);
         self.next.tau = step.tau + dt;
+        let jams = self.mechanics.counters.jams;
         let outcome =
             self.scheme
                 .advance(&mut self.mechanics, step, &self.state, &mut self.next)?;
+        // An impact without collision: what the scheme made of it is no acceleration.
+        let has_jammed = self.mechanics.counters.jams > jams;
 
         self.mechanics.system.gaps(&self.next.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed_next);
+        if self.mechanics.settings.holds_pressed_contacts {
+            add_pressed(&self.mechanics, &self.next.forces, &mut self.closed_next);
+        }
         let mut log = self.log;
-        self.account_for_friction(&mut log, dt);
+        let mut friction_power = 0.0;
+        self.was_corrected = false;
         match outcome {
-            Outcome::Smooth if closes_anew(&self.closed, &self.closed_next) => {
-                self.correct(&mut log, drive)?;
+            Outcome::Smooth => {
+                friction_power = self.friction_power_of_next();
+                log.friction_loss += 0.5 * dt * (self.friction_power + friction_power);
+                let has_impact = closes_anew(&self.closed, &self.closed_next);
+                if has_impact {
+                    self.correct(&mut log, drive)?;
+                }
+                let restarts = self.mechanics.settings.restarts_after_impacts;
+                if restarts && (has_impact || has_jammed) {
+                    self.accelerate(drive, Contacts::Acting)?;
+                    friction_power = self.friction_power_of_next();
+                }
             }
-            Outcome::Impulsive { has_impact: true } => self.note_impact(&mut log, drive),
-            Outcome::Smooth | Outcome::Impulsive { .. } => {}
+            Outcome::Impulsive { has_impact: true } => {
+                log.impact_loss += self.loss_by_impulses(dt);
+                self.note_impact(&mut log, drive);
+            }
+            Outcome::Impulsive { has_impact: false } => {
+                log.friction_loss += self.loss_by_impulses(dt);
+            }
         }
         if !self.next.is_finite() {
             return Err(StepError::NotFinite);
@@ -175,6 +149,7 @@ impl Integrator {
         log.penetration = log.penetration.max(deepest);
 
         self.log = log;
+        self.friction_power = friction_power;
         self.mechanics.counters.steps += 1;
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
@@ -203,38 +178,10 @@ impl Integrator {
         Ok(&self.next.a)
     }
 
-    /// Hands out all numbers that later steps depend on, in an order that [`Integrator::recall`] takes them back.
-    pub fn memory(&self, mut put: impl FnMut(&[f64])) {
-        for part in self.state.parts() {
-            put(part);
-        }
-        put(&self.log.numbers());
-        put(&[self.friction_power]);
-    }
-
-    /// Takes back the numbers of [`Integrator::memory`]; returns what is behind them.
-    pub fn recall<'a>(&mut self, mut numbers: &'a [f64]) -> &'a [f64] {
-        let mut take = |count: usize| {
-            let (taken, rest) = numbers.split_at(count.min(numbers.len()));
-            numbers = rest;
-            taken
-        };
-        for part in self.state.parts_mut() {
-            let taken = take(part.len());
-            part[..taken.len()].copy_from_slice(taken);
-        }
-        self.log.take(take(ContactLog::NUMBERS));
-        if let [power] = take(1) {
-            self.friction_power = *power;
-        }
-        self.state.tau = 0.0;
-        numbers
-    }
-
-    /// How many numbers [`Integrator::memory`] hands out.
-    pub fn memory_len(&self) -> usize {
-        let state: usize = self.state.parts().iter().map(|part| part.len()).sum();
-        state + ContactLog::NUMBERS + 1
+    /// Velocities before the impulses of the last step, if it had any that corrected it: then
+    /// `M(q) (v^+ - v^-) = W(q) Lambda` holds for the velocities and impulses of the state.
+    pub fn velocities_before_impact(&self) -> Option<&[f64]> {
+        self.was_corrected.then_some(&self.before_impact)
     }
 
     /// The next interval of inputs starts here.
@@ -245,6 +192,9 @@ impl Integrator {
     fn find_closed(&mut self) {
         self.mechanics.system.gaps(&self.state.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed);
+        if self.mechanics.settings.holds_pressed_contacts {
+            add_pressed(&self.mechanics, &self.state.forces, &mut self.closed);
+        }
     }
 
     fn unilateral_gaps(&self) -> impl Iterator<Item = f64> {
@@ -254,27 +204,38 @@ impl Integrator {
             .map(|(_, &gap)| gap)
     }
 
+    /// Whether a closed contact moves further together in `next`.
+    fn approaches(&mut self) -> bool {
+        self.mechanics.direct(&self.next.q, &self.closed_next);
+        let contacts = self.mechanics.contacts().iter().zip(&self.closed_next);
+        let mut closed = contacts
+            .enumerate()
+            .filter(|(_, (contact, closed))| contact.side == Side::Unilateral && **closed);
+        closed.any(|(index, _)| {
+            let row = self.mechanics.first_row(index);
+            relative_velocity(&self.mechanics, row, &self.next.v) < 0.0
+        })
+    }
+
     /// The impulsive correction of the velocities in `next`.
     fn correct(&mut self, log: &mut ContactLog, drive: Drive<'_>) -> Result<(), StepError> {
         let next = &mut self.next;
         let system = &self.mechanics.system;
         let before = system.energy(&next.q, &next.v);
+        self.before_impact.copy_from_slice(&next.v);
         let (closed, impulses) = (&self.closed_next, &mut next.impulses);
         impact::correct(&mut self.mechanics, closed, &next.q, &mut next.v, impulses)?;
         log.impact_loss += before - self.mechanics.system.energy(&next.q, &next.v);
         self.note_impact(log, drive);
-        if self.mechanics.settings.restarts_after_impacts {
-            let closed = &mut self.closed;
-            closed.copy_from_slice(&self.closed_next);
-            accelerate(
-                &mut self.mechanics,
-                drive,
-                Contacts::Acting,
-                closed,
-                &mut self.next,
-            )?;
-        }
+        self.was_corrected = true;
         Ok(())
+    }
+
+    /// Accelerations and forces of `next`, whose closed contacts are `closed_next`.
+    fn accelerate(&mut self, drive: Drive<'_>, contacts: Contacts) -> Result<(), StepError> {
+        let closed = &mut self.closed;
+        closed.copy_from_slice(&self.closed_next);
+        accelerate(&mut self.mechanics, drive, contacts, closed, &mut self.next)
     }
 
     fn note_impact(&self, log: &mut ContactLog, drive: Drive<'_>) {
@@ -286,34 +247,11 @@ impl Integrator {
             }
         }
     }
+}
 
-    fn account_for_friction(&mut self, log: &mut ContactLog, dt: f64) {
-        let power = self.friction_power_of_next();
-        log.friction_loss += 0.5 * dt * (self.friction_power + power);
-        self.friction_power = power;
-    }
-
-    /// `-sum lambda_T g_T'` at the end of the step.
-    fn friction_power_of_next(&mut self) -> f64 {
-        let next = &self.next;
-        let n = next.v.len();
-        let mut power = 0.0;
-        let has_friction = self
-            .mechanics
-            .contacts()
-            .iter()
-            .any(|contact| contact.tangents > 0);
-        if !has_friction || next.forces.iter().all(|&force| force == 0.0) {
-            return 0.0;
-        }
-        self.mechanics.direct(&next.q, &[true]);
-        for (index, contact) in self.mechanics.contacts().iter().enumerate() {
-            let first = self.mechanics.first_row(index);
-            for row in first + 1..first + contact.rows() {
-                let direction = &self.mechanics.directions[row * n..][..n];
-                power -= next.forces[row] * dot(direction, &next.v);
-            }
-        }
-        power
+/// Contacts that press are closed as well.
+fn add_pressed(mechanics: &Mechanics, forces: &[f64], closed: &mut [bool]) {
+    for (index, closed) in closed.iter_mut().enumerate() {
+        *closed |= forces[mechanics.first_row(index)] > 0.0;
     }
 }

@@ -42,22 +42,24 @@ fn act(mechanics: &mut Mechanics, closed: &mut [bool], state: &mut State) -> Res
     mechanics.direct(&state.q, closed);
     for (index, closed) in closed.iter_mut().enumerate() {
         let is_unilateral = mechanics.contacts()[index].side == Side::Unilateral;
-        if *closed && is_unilateral && moves(mechanics, mechanics.first_row(index), &state.v) > 0.0
+        if *closed
+            && is_unilateral
+            && relative_velocity(mechanics, mechanics.first_row(index), &state.v) > 0.0
         {
             *closed = false;
         }
     }
     mechanics.begin_problem();
     mechanics.add_laws(closed, 0);
-    let mut rates = vec![0.0; mechanics.rows()];
     if mechanics.problem.is_empty() {
         state.forces.fill(0.0);
         return Ok(());
     }
-    let system = &mechanics.system;
-    system.direction_rates(&state.q, &state.v, &mut rates);
+    let (system, rates) = (&mechanics.system, &mut mechanics.rates);
+    system.direction_rates(&state.q, &state.v, rates);
     for row in 0..mechanics.problem.len() {
-        let free = dot(mechanics.direction(row), &state.a) + rates[mechanics.active_rows[row]];
+        let free =
+            dot(mechanics.direction(row), &state.a) + mechanics.rates[mechanics.active_rows[row]];
         mechanics.problem.free.push(free);
         slide(mechanics, row, &state.v);
     }
@@ -76,7 +78,7 @@ fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
             normal,
             coefficient,
         } => {
-            let speed = moves(mechanics, own, v);
+            let speed = relative_velocity(mechanics, own, v);
             if speed != 0.0 {
                 let factor = -coefficient * speed.signum();
                 mechanics.problem.laws[row] = Law::Sliding { normal, factor };
@@ -86,7 +88,10 @@ fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
             normal,
             coefficient,
         } => {
-            let speeds = [moves(mechanics, own, v), moves(mechanics, own + 1, v)];
+            let speeds = [
+                relative_velocity(mechanics, own, v),
+                relative_velocity(mechanics, own + 1, v),
+            ];
             let size = speeds[0].hypot(speeds[1]);
             if size > 0.0 {
                 for (offset, speed) in speeds.into_iter().enumerate() {
@@ -100,7 +105,7 @@ fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
 }
 
 /// Relative velocity of a row; 0 if it is rounding of what it is the sum of.
-fn moves(mechanics: &Mechanics, row: usize, v: &[f64]) -> f64 {
+pub fn relative_velocity(mechanics: &Mechanics, row: usize, v: &[f64]) -> f64 {
     let n = mechanics.order();
     let direction = &mechanics.directions[row * n..][..n];
     let size: f64 = direction.iter().zip(v).map(|(d, v)| (d * v).abs()).sum();

@@ -9,6 +9,8 @@ use linchpin_models::nonsmooth::schemes::SchemeKind;
 pub struct Row {
     pub name: String,
     numbers: BTreeMap<String, f64>,
+    /// Fields that are lists: their first numbers.
+    firsts: BTreeMap<String, f64>,
 }
 
 impl Row {
@@ -17,6 +19,11 @@ impl Row {
             .numbers
             .get(column)
             .unwrap_or_else(|| panic!("no column {column} in {:?}", self.numbers.keys()))
+    }
+
+    /// The first number of a list with semicolons; 0 if it is empty.
+    pub fn first_of(&self, column: &str) -> f64 {
+        self.firsts.get(column).copied().unwrap_or(0.0)
     }
 
     pub fn list(&self, columns: &[&str]) -> Vec<f64> {
@@ -52,8 +59,13 @@ pub fn rows(file: &str) -> Vec<Row> {
             let numbers = header.iter().zip(&fields);
             let numbers =
                 numbers.filter_map(|(name, field)| Some(((*name).to_owned(), field.parse().ok()?)));
+            let firsts = header.iter().zip(&fields).filter_map(|(name, field)| {
+                let first = field.split(';').next()?;
+                Some(((*name).to_owned(), first.parse().ok()?))
+            });
             Row {
                 name: fields[0].to_owned(),
+                firsts: firsts.collect(),
                 numbers: numbers.collect(),
             }
         })

@@ -1,5 +1,5 @@
-//! The rigid slider-crank against golden data, with the conventions of the golden files: accelerations at the start without
-//! contacts and carried over impacts.
+//! The rigid slider-crank against golden data, with the conventions of the golden files: accelerations at the start
+//! without contacts and carried over impacts.
 
 use linchpin_models::nonsmooth::mechanics::Settings;
 use linchpin_models::nonsmooth::schemes::SchemeKind;

@@ -3,6 +3,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod ball;
+mod bilateral;
+mod contact_problems;
+mod defaults;
 mod figures;
 mod flexible_forms;
 mod flexible_motion;
@@ -10,9 +14,16 @@ mod golden;
 mod golden_flexible;
 mod golden_masses;
 mod golden_rigid;
+mod hard;
+mod incline;
+mod invariants;
 mod mistakes;
 mod model_problem;
+mod painleve;
 mod quadrature;
+mod rocking;
 mod rod;
+mod slider;
 mod spectrum;
 mod stand;
+mod woodpecker;

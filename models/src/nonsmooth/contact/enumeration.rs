@@ -1,7 +1,8 @@
 //! All contact states in turn, for few contacts in the plane: what exists is found, and what is not unique is seen.
 
-use super::least_norm::LeastNorm;
+use super::least_norm::{LeastNorm, is_regular};
 use super::problem::{Law, Problem};
+use crate::nonsmooth::matrix::dense_solve;
 
 /// Combinations of states that are tried at most: 4 contacts with friction.
 const MOST_STATES: usize = 4096;
@@ -41,6 +42,8 @@ pub struct Enumeration {
     matrix: Vec<f64>,
     trial: Vec<f64>,
     velocities: Vec<f64>,
+    factors: Vec<f64>,
+    pivots: Vec<usize>,
     least_norm: LeastNorm,
 }
 
@@ -163,7 +166,19 @@ impl Enumeration {
                 }
             }
         }
-        self.least_norm.solve(n, &self.matrix, &mut self.trial);
+        self.solve_linear(n);
         problem.residual(&self.trial) <= SLACK * problem.scale(&self.trial)
+    }
+
+    /// `matrix trial = trial`: by elimination, or of least norm where the rows of contacts depend on each other.
+    fn solve_linear(&mut self, n: usize) {
+        self.factors.clear();
+        self.factors.extend_from_slice(&self.matrix);
+        self.pivots.resize(n, 0);
+        if is_regular(n, &mut self.factors, &mut self.pivots[..n]) {
+            dense_solve(n, &self.factors, &self.pivots[..n], &mut self.trial);
+        } else {
+            self.least_norm.solve(n, &self.matrix, &mut self.trial);
+        }
     }
 }

@@ -1,14 +1,39 @@
 //! The nonsmooth Gauss-Newton iteration of S2 eqs. (42) to (45) and (51) to (54).
 
-use super::least_norm::LeastNorm;
+use super::least_norm::{LeastNorm, is_regular};
 use super::problem::{Law, Problem};
 use super::solve::{Jacobian, Weights};
-use crate::nonsmooth::matrix::{dense_factor, dense_solve};
+use crate::nonsmooth::matrix::{dense_solve, dot};
 
 /// Iterations after which it is given up: the pattern of active contacts cycles. Where it converges, it takes 1 to 5.
 const MOST_ITERATIONS: usize = 25;
-/// A pivot below this share of the largest means dependent rows: then the step is the one of least norm.
-const DEPENDENT: f64 = 1e-11;
+
+/// Shortest step of a line search.
+const SHORTEST: f64 = 0.02;
+/// Share of the predicted fall of the residual that a step must bring.
+const DESCENT: f64 = 0.05;
+
+/// Whether steps are shortened where they make the residual grow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Damping {
+    /// Full steps: they find the pattern of contacts at once, or cycle between patterns.
+    None,
+    /// Halved until the residual falls.
+    LineSearch,
+}
+
+/// How the iteration is done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Method {
+    /// Its gradient.
+    pub jacobian: Jacobian,
+    /// Its parameter.
+    pub weights: Weights,
+    /// Largest residual at its end, as a share of the scale of the problem.
+    pub tolerance: f64,
+    /// Length of its steps.
+    pub damping: Damping,
+}
 
 /// Room for the iteration.
 #[derive(Debug, Clone, Default)]
@@ -32,45 +57,70 @@ impl GaussNewton {
 
     /// Improves `x` until the residual (m/s) is at most `tolerance` times the scale of the problem; the iterations that
     /// it took, or `None` if it does not get there.
-    pub fn solve(
-        &mut self,
-        problem: &Problem,
-        jacobian: Jacobian,
-        weights: Weights,
-        tolerance: f64,
-        x: &mut [f64],
-    ) -> Option<usize> {
-        let n = problem.len();
+    pub fn solve(&mut self, problem: &Problem, method: Method, x: &mut [f64]) -> Option<usize> {
         for iteration in 0..=MOST_ITERATIONS {
-            if problem.residual(x) <= tolerance * problem.scale(x) {
+            let residual = problem.residual(x);
+            if residual <= method.tolerance * problem.scale(x) {
                 return Some(iteration);
             }
-            self.assemble(problem, jacobian, weights, x);
-            if !self.newton_step(n) {
+            self.assemble(problem, method, x);
+            if !self.newton_step(x) {
                 return None;
             }
             for (x, step) in x.iter_mut().zip(&self.step) {
                 *x -= step;
             }
+            if method.damping == Damping::LineSearch {
+                self.shorten(problem, residual, x);
+            }
         }
         None
     }
 
+    /// Takes back parts of the last step until the residual falls below `before`, or little of it is left.
+    fn shorten(&mut self, problem: &Problem, before: f64, x: &mut [f64]) {
+        let mut share = 1.0;
+        while share > SHORTEST && problem.residual(x) > (1.0 - DESCENT * share) * before {
+            share *= 0.5;
+            for (x, step) in x.iter_mut().zip(&self.step) {
+                *x += share * step;
+            }
+        }
+    }
+
+    /// Forces for which all relative velocities are 0, of least norm where they are not determined.
+    pub fn hold_all(&mut self, problem: &Problem, x: &mut Vec<f64>) {
+        let n = problem.len();
+        self.gradient.clear();
+        self.step.clear();
+        for row in 0..n {
+            let weight = 1.0 / problem.diagonal(row);
+            let entries = problem.row(row).iter().map(|g| weight * g);
+            self.gradient.extend(entries);
+            self.step.push(-weight * problem.free[row]);
+        }
+        x.clear();
+        x.resize(n, 0.0);
+        if self.newton_step(x) {
+            x.copy_from_slice(&self.step);
+        }
+    }
+
     /// `f` to `step`, its gradient to `gradient`.
-    fn assemble(&mut self, problem: &Problem, jacobian: Jacobian, weights: Weights, x: &[f64]) {
+    fn assemble(&mut self, problem: &Problem, method: Method, x: &[f64]) {
         let n = problem.len();
         self.gradient.clear();
         self.gradient.resize(n * n, 0.0);
         self.step.clear();
         self.step.resize(n, 0.0);
         for row in 0..n {
-            let weight = weights.of(problem.diagonal(row));
+            let weight = method.weights.of(problem.diagonal(row));
             let [first, second] = problem.defect(row, weight, x);
             self.step[row] += first;
             if let Law::Disc { .. } = problem.laws[row] {
                 self.step[row + 1] += second;
             }
-            self.linearise(problem, jacobian, weight, row, x);
+            self.linearise(problem, method.jacobian, weight, row, x);
         }
     }
 
@@ -147,20 +197,24 @@ impl GaussNewton {
         }
     }
 
-    /// `step` becomes `pinv(gradient) step`; whether it is finite.
-    fn newton_step(&mut self, n: usize) -> bool {
+    /// `step` becomes the step from `x` to a zero of the linearised problem; whether it is finite. Where rows depend on
+    /// each other it goes to the zero of least norm, whatever stress between contacts `x` has: that would make
+    /// friction.
+    fn newton_step(&mut self, x: &[f64]) -> bool {
+        let n = x.len();
         self.kept.clear();
         self.kept.extend_from_slice(&self.gradient);
         self.pivots.resize(n, 0);
-        let is_regular = dense_factor(n, &mut self.kept, &mut self.pivots[..n]).is_ok() && {
-            let pivots = || (0..n).map(|k| self.kept[k * (n + 1)].abs());
-            let smallest = pivots().fold(f64::INFINITY, f64::min);
-            smallest > DEPENDENT * pivots().fold(0.0, f64::max)
-        };
-        if is_regular {
+        if is_regular(n, &mut self.kept, &mut self.pivots[..n]) {
             dense_solve(n, &self.kept, &self.pivots[..n], &mut self.step);
         } else {
+            for (step, row) in self.step.iter_mut().zip(self.gradient.chunks_exact(n)) {
+                *step = dot(row, x) - *step;
+            }
             self.least_norm.solve(n, &self.gradient, &mut self.step);
+            for (step, x) in self.step.iter_mut().zip(x) {
+                *step = x - *step;
+            }
         }
         self.step.iter().all(|step| step.is_finite())
     }

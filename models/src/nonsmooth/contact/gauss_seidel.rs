@@ -7,11 +7,11 @@ const MOST_SWEEPS: usize = 4000;
 /// Sweeps between two looks at the residual.
 const LOOK: usize = 8;
 
-/// Improves `x` until the residual (m/s) is at most `tolerance` times the scale of the problem; the sweeps that it took, or
-/// `None` if it does not get there.
+/// Improves `x` until the residual (m/s) is at most `tolerance` times the scale of the problem; the sweeps that it
+/// took, or `None` if it does not get there.
 ///
-/// Every row takes the force that meets its own law while the other forces are held, `r = 1/G_kk`. It needs no matrix of
-/// full rank: dependent contacts share their forces as the order of the rows has it.
+/// Every row takes the force that meets its own law while the other forces are held, `r = 1/G_kk`. It needs no matrix
+/// of full rank: dependent contacts share their forces as the order of the rows has it.
 pub fn solve(problem: &Problem, tolerance: f64, x: &mut [f64]) -> Option<usize> {
     for sweep in 1..=MOST_SWEEPS {
         for row in 0..problem.len() {

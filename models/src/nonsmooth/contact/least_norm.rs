@@ -1,7 +1,9 @@
 //! Least-norm solutions of small linear systems that may be singular: `x = pinv(A) b`.
 
-use crate::nonsmooth::matrix::dot;
+use crate::nonsmooth::matrix::{dense_factor, dot};
 
+/// A pivot below this share of the largest means dependent rows.
+const DEPENDENT: f64 = 1e-11;
 /// Singular values below this share of the largest count as 0: rounding of a Delassus matrix is some units of 1e-16.
 const RANK: f64 = 1e-11;
 /// Sweeps of rotations; ten are usual.
@@ -57,8 +59,8 @@ impl LeastNorm {
                 }
                 is_changed = true;
                 let zeta = (qq - pp) / (2.0 * pq);
-                let tangent = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
-                let cosine = 1.0 / tangent.hypot(1.0);
+                let tangent = zeta.signum() / (zeta.abs() + (1.0 + zeta * zeta).sqrt());
+                let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
                 let sine = cosine * tangent;
                 rotate(first, second, cosine, sine);
                 let [first, second] = pair(&mut self.right, n, p, q);
@@ -86,6 +88,16 @@ impl LeastNorm {
         }
         b.copy_from_slice(&self.solution);
     }
+}
+
+/// Factors a matrix in place; whether it has full rank, so that [`LeastNorm`] is not needed.
+pub fn is_regular(n: usize, matrix: &mut [f64], pivots: &mut [usize]) -> bool {
+    if dense_factor(n, matrix, pivots).is_err() {
+        return false;
+    }
+    let pivots = || (0..n).map(|k| matrix[k * (n + 1)].abs());
+    let smallest = pivots().fold(f64::INFINITY, f64::min);
+    smallest > DEPENDENT * pivots().fold(0.0, f64::max)
 }
 
 fn pair(columns: &mut [f64], n: usize, p: usize, q: usize) -> [&mut [f64]; 2] {

@@ -140,27 +140,34 @@ impl Problem {
         }
     }
 
-    /// Whether a single contact could jam: a normal force that makes its own friction can close its gap further,
-    /// `G_NN <= mu |G_NT|`. Then the problem may have no solution or several (Painleve).
-    pub fn may_jam(&self) -> bool {
-        let jams = |normal: usize, coefficient: f64, row: usize| {
-            let coupling = self.delassus[normal * self.len() + row];
+    /// Whether the forces `x` press a contact that jams: sliding as it does without forces, it would make so much
+    /// friction that its normal force closes its gap further, `G_NN + G_NT lambda_T / lambda_N <= 0` (Painleve). Then
+    /// friction stops it at once, by an impact without collision: its force is that of a jump of the velocities within
+    /// the step.
+    pub fn jams(&self, x: &[f64]) -> bool {
+        let jams = |normal: usize, coupling: f64| {
             matches!(self.laws[normal], Law::Normal)
-                && self.diagonal(normal) <= coefficient * coupling.abs()
+                && x[normal] > 0.0
+                && self.diagonal(normal) + coupling <= 0.0
         };
         self.laws.iter().enumerate().any(|(row, law)| match *law {
             Law::Friction {
                 normal,
                 coefficient,
-            } => jams(normal, coefficient, row),
+            } => {
+                let factor = -coefficient * self.free[row].signum();
+                jams(normal, factor * self.row(normal)[row])
+            }
             Law::Disc {
                 normal,
                 coefficient,
             } => {
-                let couplings = &self.row(normal)[row..row + 2];
-                self.diagonal(normal) <= coefficient * couplings[0].hypot(couplings[1])
+                let (free, couplings) = (&self.free[row..], &self.row(normal)[row..]);
+                let speed = free[0].hypot(free[1]);
+                let along = (couplings[0] * free[0] + couplings[1] * free[1]) / speed;
+                jams(normal, -coefficient * along)
             }
-            Law::Sliding { normal, factor } => jams(normal, factor.abs(), row),
+            Law::Sliding { normal, factor } => jams(normal, factor * self.row(normal)[row]),
             Law::Equality | Law::Normal | Law::Second => false,
         })
     }

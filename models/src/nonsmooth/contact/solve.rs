@@ -1,9 +1,10 @@
 //! The order in which solvers are tried: what is fast first, what is robust behind it.
 
 use super::enumeration::{Count, Enumeration};
-use super::gauss_newton::GaussNewton;
+use super::gauss_newton::{Damping, GaussNewton, Method};
 use super::gauss_seidel;
 use super::problem::Problem;
+use super::uniqueness::Uniqueness;
 
 /// What the gradient of the Gauss-Newton iteration has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,8 +41,8 @@ pub struct ContactSettings {
     pub jacobian: Jacobian,
     /// Parameter of the projections.
     pub weights: Weights,
-    /// Largest residual that is a solution, as a share of the velocities that balance each other. Larger: forces of a step
-    /// are less accurate than its motion; smaller than 1e-14: rounding does not allow it.
+    /// Largest residual that is a solution, as a share of the velocities that balance each other. Larger: forces of a
+    /// step are less accurate than its motion; smaller than 1e-14: rounding does not allow it.
     pub tolerance: f64,
 }
 
@@ -66,13 +67,32 @@ const ROBUST_TOLERANCE: f64 = 1e-11;
 pub enum SolverKind {
     /// Nonsmooth Gauss-Newton from the forces of the last problem.
     GaussNewton,
-    /// The same from zero forces, since it failed from the last ones.
+    /// The same from zero forces, or from those that hold all contacts, or with shorter steps.
     GaussNewtonRestarted,
     /// Projections contact by contact.
     GaussSeidel,
     /// All contact states in turn.
     Enumeration,
 }
+
+/// Forces from which the Gauss-Newton iteration starts.
+#[derive(Debug, Clone, Copy)]
+enum Start {
+    Last,
+    Zero,
+    /// Those that hold all contacts, pulling where they must: sticking contacts of coupled stages are found from there.
+    Held,
+}
+
+/// Attempts in the order in which they are made.
+const ATTEMPTS: [(Start, Damping); 6] = [
+    (Start::Last, Damping::None),
+    (Start::Zero, Damping::None),
+    (Start::Held, Damping::None),
+    (Start::Last, Damping::LineSearch),
+    (Start::Zero, Damping::LineSearch),
+    (Start::Held, Damping::LineSearch),
+];
 
 /// What is told of a problem that was solved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,6 +105,8 @@ pub struct Solved {
     pub residual: f64,
     /// Whether other solutions with other velocities were found (Painleve).
     pub is_ambiguous: bool,
+    /// Whether a pressed contact jams (Painleve), see [`Problem::jams`].
+    pub jams: bool,
 }
 
 /// Why there are no forces.
@@ -116,6 +138,7 @@ pub enum Unsolved {
 pub struct ContactSolver {
     gauss_newton: GaussNewton,
     enumeration: Enumeration,
+    uniqueness: Uniqueness,
     trial: Vec<f64>,
 }
 
@@ -143,17 +166,25 @@ impl ContactSolver {
                 iterations: 0,
                 residual: 0.0,
                 is_ambiguous: false,
+                jams: false,
             });
         }
         let numbers = problem.delassus.iter().chain(&problem.free);
         if !numbers.clone().all(|number| number.is_finite()) {
             return Err(Unsolved::NotFinite);
         }
-        let found = self.find(problem, settings, x);
-        if !problem.may_jam() {
-            return found;
+        let solved = self.find(problem, settings, x)?;
+        if self.uniqueness.is_certain(problem) {
+            return Ok(solved);
         }
-        self.look_for_others(problem, found, x)
+        self.trial.clear();
+        self.trial.extend_from_slice(x);
+        let count = self.enumeration.solve(problem, &mut self.trial);
+        Ok(Solved {
+            is_ambiguous: count == Count::Several,
+            jams: problem.jams(x),
+            ..solved
+        })
     }
 
     fn find(
@@ -167,22 +198,33 @@ impl ContactSolver {
             iterations,
             residual: problem.residual(x),
             is_ambiguous: false,
+            jams: false,
         };
         let &ContactSettings {
             jacobian,
             weights,
             tolerance,
         } = settings;
-        for solver in [SolverKind::GaussNewton, SolverKind::GaussNewtonRestarted] {
+        for (attempt, (start, damping)) in ATTEMPTS.into_iter().enumerate() {
             self.trial.clear();
-            match solver {
-                SolverKind::GaussNewton => self.trial.extend_from_slice(x),
-                _ => self.trial.resize(x.len(), 0.0),
-            }
             let newton = &mut self.gauss_newton;
-            let taken = newton.solve(problem, jacobian, weights, tolerance, &mut self.trial);
-            if let Some(iterations) = taken {
+            match start {
+                Start::Last => self.trial.extend_from_slice(x),
+                Start::Zero => self.trial.resize(x.len(), 0.0),
+                Start::Held => newton.hold_all(problem, &mut self.trial),
+            }
+            let method = Method {
+                jacobian,
+                weights,
+                tolerance,
+                damping,
+            };
+            if let Some(iterations) = newton.solve(problem, method, &mut self.trial) {
                 x.copy_from_slice(&self.trial);
+                let solver = match attempt {
+                    0 => SolverKind::GaussNewton,
+                    _ => SolverKind::GaussNewtonRestarted,
+                };
                 return Ok(solved(solver, iterations, x));
             }
         }
@@ -200,29 +242,10 @@ impl ContactSolver {
                 residual,
                 rows: problem.len(),
             }),
-            count => {
+            Count::One | Count::Several => {
                 x.copy_from_slice(&self.trial);
-                Ok(Solved {
-                    is_ambiguous: count == Count::Several,
-                    ..solved(SolverKind::Enumeration, 1, x)
-                })
+                Ok(solved(SolverKind::Enumeration, 1, x))
             }
         }
-    }
-
-    fn look_for_others(
-        &mut self,
-        problem: &Problem,
-        found: Result<Solved, Unsolved>,
-        x: &[f64],
-    ) -> Result<Solved, Unsolved> {
-        let solved = found?;
-        self.trial.clear();
-        self.trial.extend_from_slice(x);
-        let count = self.enumeration.solve(problem, &mut self.trial);
-        Ok(Solved {
-            is_ambiguous: count == Count::Several,
-            ..solved
-        })
     }
 }

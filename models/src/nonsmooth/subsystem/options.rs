@@ -126,6 +126,11 @@ fn common() -> Vec<v1::Parameter> {
             1.0,
         ),
         flag(
+            "hold_pressed",
+            "1: a contact that presses stays closed where rounding or drift opens its gap; 0: the gap alone decides, as in the paper",
+            1.0,
+        ),
+        flag(
             "full_jacobian",
             "1: the contact iteration has all derivatives; 0: without that of the friction radius, as in the paper",
             1.0,
@@ -213,6 +218,7 @@ fn settings(setup: &Setup, scheme: SchemeKind) -> Result<Settings, SetupError> {
         },
         has_consistent_start: flag("consistent_start")?,
         restarts_after_impacts: flag("restart")?,
+        holds_pressed_contacts: flag("hold_pressed")?,
         tolerance: setup.option_in("tolerance", "it must be 1e-15 to 1e-3", |tolerance| {
             (1e-15..=1e-3).contains(&tolerance)
         })?,

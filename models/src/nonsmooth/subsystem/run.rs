@@ -11,8 +11,9 @@ use super::face::{Face, Output};
 use super::observed::{Motion, Observer, PointMotion};
 use super::options::choose;
 use crate::mechanics::fixed::parts;
+use crate::nonsmooth::contact_log::ContactLog;
 use crate::nonsmooth::mechanics::StepError;
-use crate::nonsmooth::mixed::{ContactLog, Integrator};
+use crate::nonsmooth::mixed::Integrator;
 use crate::nonsmooth::state::Drive;
 use crate::nonsmooth::system::MechanicalSystem;
 
@@ -154,6 +155,14 @@ impl Run {
         put(&self.impulses);
     }
 
+    /// Keeps what [`Run::recall`] goes back to.
+    fn keep(&mut self) {
+        let mut kept = std::mem::take(&mut self.kept);
+        kept.clear();
+        self.memory(|numbers| kept.extend_from_slice(numbers));
+        self.kept = kept;
+    }
+
     fn recall(&mut self) {
         let own = self.integrator.recall(&self.kept);
         if let &[has_started, impacts, time, impulse, ref impulses @ ..] = own {
@@ -173,7 +182,7 @@ impl Run {
         }
     }
 
-    /// Accelerations and forces at the start under these inputs; the first step finds them anew under its own.
+    /// Accelerations and forces at the start under the inputs that are held; the first step finds them anew under its own.
     fn show_start(&mut self, t: f64) -> Result<(), StepFailure> {
         let drive = Drive {
             start: t,
@@ -206,6 +215,26 @@ impl Run {
                 a: &self.accelerations,
             },
         )
+    }
+
+    fn read(
+        &mut self,
+        t: f64,
+        needs_accelerations: bool,
+        wanted: &[usize],
+        values: &mut [f64],
+    ) -> Result<(), StepFailure> {
+        if needs_accelerations {
+            self.accelerate(t)?;
+        }
+        for (value, &number) in values.iter_mut().zip(wanted) {
+            let output = self.outputs.get(number).copied();
+            let output = output.ok_or_else(|| StepFailure::Fatal {
+                message: format!("the model has no output number {number}"),
+            })?;
+            *value = self.value(output);
+        }
+        Ok(())
     }
 
     fn value(&mut self, output: Output) -> f64 {
@@ -249,10 +278,7 @@ fn failed(t: f64, error: StepError) -> StepFailure {
 
 impl Subsystem for Run {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
-        self.kept.clear();
-        let mut kept = std::mem::take(&mut self.kept);
-        self.memory(|numbers| kept.extend_from_slice(numbers));
-        self.kept = kept;
+        self.keep();
         let advanced = self.advance(interval, inputs);
         if advanced.is_err() {
             self.recall();
@@ -275,20 +301,15 @@ impl Subsystem for Run {
         };
         let needs_accelerations = wanted.iter().any(is_acceleration);
         self.hold(inputs);
-        if !self.has_started {
-            self.show_start(t)?;
+        if self.has_started {
+            return self.read(t, needs_accelerations, wanted, values);
         }
-        if needs_accelerations {
-            self.accelerate(t)?;
-        }
-        for (value, &number) in values.iter_mut().zip(wanted) {
-            let output = self.outputs.get(number).copied();
-            let output = output.ok_or_else(|| StepFailure::Fatal {
-                message: format!("the model has no output number {number}"),
-            })?;
-            *value = self.value(output);
-        }
-        Ok(())
+        self.keep();
+        let read = self
+            .show_start(t)
+            .and_then(|()| self.read(t, needs_accelerations, wanted, values));
+        self.recall();
+        read
     }
 
     fn snapshot(&self, into: &mut Snapshot) {
