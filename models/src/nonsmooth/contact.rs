@@ -21,5 +21,6 @@ pub mod uniqueness;
 
 pub use problem::{Law, Problem};
 pub use solve::{
-    ContactSettings, ContactSolver, DEFAULT, Jacobian, Solved, SolverKind, Unsolved, Weights,
+    ContactSettings, ContactSolver, DEFAULT, Jacobian, Judgement, Solved, SolverKind, Unsolved,
+    Weights,
 };

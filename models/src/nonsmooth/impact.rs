@@ -25,6 +25,7 @@ pub fn correct(
     mechanics.add_delassus(1.0, None);
     impulses.fill(0.0);
     mechanics.solve_problem(impulses)?;
+    mechanics.judge_problem();
     mechanics.respond(1.0, v);
     Ok(())
 }

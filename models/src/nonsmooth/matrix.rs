@@ -212,27 +212,29 @@ impl BorderedBand {
             self.add_scaled(factor, other);
             return;
         }
-        let Shape { border, banded, .. } = other.shape;
-        let order = other.shape.order();
-        for i in 0..border {
-            for j in 0..order {
-                let value = factor * other.top[i * order + j];
-                self.add(stages * i + row, stages * j + column, value);
+        let (own, given) = (self.shape, other.shape);
+        // Row by row: the numbers of `other` stand `stages` places apart here.
+        let mut add = |values: &[f64], to: &mut [f64]| {
+            for (to, value) in to.iter_mut().step_by(stages).zip(values) {
+                *to += factor * value;
             }
+        };
+        for (i, values) in other.top.chunks_exact(given.order().max(1)).enumerate() {
+            let start = (stages * i + row) * own.order() + column;
+            add(values, &mut self.top[start..]);
         }
-        for i in 0..banded {
-            let staged_row = stages * (border + i) + row;
-            for j in 0..border {
-                self.add(
-                    staged_row,
-                    stages * j + column,
-                    factor * other.left[i * border + j],
-                );
-            }
-            for j in other.band_columns(i) {
-                let value = other.get(border + i, border + j);
-                self.add(staged_row, stages * (border + j) + column, factor * value);
-            }
+        for i in 0..given.banded {
+            let staged_row = stages * i + row;
+            let values = &other.left[i * given.border..][..given.border];
+            let start = staged_row * own.border + column;
+            add(values, self.left.get_mut(start..).unwrap_or_default());
+
+            let columns = other.band_columns(i);
+            let values =
+                &other.band[i * given.bandwidth() + columns.start + given.half_bandwidth - i..];
+            let offset = stages * columns.start + column + own.half_bandwidth - staged_row;
+            let start = staged_row * own.bandwidth() + offset;
+            add(&values[..columns.len()], &mut self.band[start..]);
         }
     }
 }

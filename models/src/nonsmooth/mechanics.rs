@@ -333,6 +333,7 @@ impl Mechanics {
         }
         self.add_delassus(factor, laws);
         self.solve_problem(forces)?;
+        self.judge_problem();
         self.respond(factor, v);
         Ok(())
     }
@@ -349,12 +350,19 @@ impl Mechanics {
         let settings = self.settings.contact;
         let solved = self
             .solver
-            .solve(&self.problem, &settings, &mut self.unknowns)?;
+            .find(&self.problem, &settings, &mut self.unknowns)?;
         self.count(solved);
         for (&row, &force) in self.active_rows.iter().zip(&self.unknowns) {
             forces[row] = force;
         }
         Ok(())
+    }
+
+    /// Counts whether the problem that was solved last has other solutions: the last one of an iteration.
+    pub fn judge_problem(&mut self) {
+        let judgement = self.solver.judge(&self.problem, &self.unknowns);
+        self.counters.ambiguous += u64::from(judgement.is_ambiguous);
+        self.counters.jams += u64::from(judgement.jams);
     }
 
     /// `v += factor M^-1 W x` with the forces of the problem that was solved last.
@@ -380,8 +388,6 @@ impl Mechanics {
         let counters = &mut self.counters;
         counters.contact_problems[place] += 1;
         counters.contact_iterations += solved.iterations as u64;
-        counters.ambiguous += u64::from(solved.is_ambiguous);
-        counters.jams += u64::from(solved.jams);
         counters.largest_residual = counters.largest_residual.max(solved.residual);
     }
 }

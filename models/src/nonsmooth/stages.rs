@@ -128,6 +128,7 @@ impl Stages {
             if change <= settings.tolerance || is_rounding {
                 let largest = &mut mechanics.counters.largest_change;
                 *largest = largest.max(change);
+                mechanics.judge_problem();
                 return Ok(());
             }
             previous = change;

@@ -65,6 +65,7 @@ fn act(mechanics: &mut Mechanics, closed: &mut [bool], state: &mut State) -> Res
     }
     mechanics.add_delassus(1.0, None);
     mechanics.solve_problem(&mut state.forces)?;
+    mechanics.judge_problem();
     mechanics.respond(1.0, &mut state.a);
     Ok(())
 }

@@ -109,6 +109,15 @@ pub struct Solved {
     pub jams: bool,
 }
 
+/// What else is known of a problem that was solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Judgement {
+    /// Whether other solutions with other velocities were found (Painleve).
+    pub is_ambiguous: bool,
+    /// Whether a pressed contact jams (Painleve), see [`Problem::jams`].
+    pub jams: bool,
+}
+
 /// Why there are no forces.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Unsolved {
@@ -147,14 +156,49 @@ impl ContactSolver {
     pub fn reserve(&mut self, rows: usize) {
         self.gauss_newton.reserve(rows);
         self.enumeration.reserve(rows);
+        self.uniqueness.reserve(rows);
         self.trial.reserve(rows);
     }
 
-    /// Forces `x` of a problem, from those that `x` has at the call (warm start).
+    /// Forces `x` of a problem, from those that `x` has at the call (warm start), judged.
     ///
     /// # Errors
     /// [`Unsolved`].
     pub fn solve(
+        &mut self,
+        problem: &Problem,
+        settings: &ContactSettings,
+        x: &mut [f64],
+    ) -> Result<Solved, Unsolved> {
+        let solved = self.find(problem, settings, x)?;
+        let Judgement { is_ambiguous, jams } = self.judge(problem, x);
+        Ok(Solved {
+            is_ambiguous,
+            jams,
+            ..solved
+        })
+    }
+
+    /// Whether other forces than `x` solve a problem as well. It costs about as much as the solution, so that of the problems of
+    /// an iteration only the last one is judged.
+    pub fn judge(&mut self, problem: &Problem, x: &[f64]) -> Judgement {
+        if problem.is_empty() || self.uniqueness.is_certain(problem) {
+            return Judgement::default();
+        }
+        self.trial.clear();
+        self.trial.extend_from_slice(x);
+        let count = self.enumeration.solve(problem, &mut self.trial);
+        Judgement {
+            is_ambiguous: count == Count::Several,
+            jams: problem.jams(x),
+        }
+    }
+
+    /// As [`ContactSolver::solve`], not judged.
+    ///
+    /// # Errors
+    /// [`Unsolved`].
+    pub fn find(
         &mut self,
         problem: &Problem,
         settings: &ContactSettings,
@@ -169,25 +213,14 @@ impl ContactSolver {
                 jams: false,
             });
         }
-        let numbers = problem.delassus.iter().chain(&problem.free);
-        if !numbers.clone().all(|number| number.is_finite()) {
+        let mut numbers = problem.delassus.iter().chain(&problem.free);
+        if !numbers.all(|number| number.is_finite()) {
             return Err(Unsolved::NotFinite);
         }
-        let solved = self.find(problem, settings, x)?;
-        if self.uniqueness.is_certain(problem) {
-            return Ok(solved);
-        }
-        self.trial.clear();
-        self.trial.extend_from_slice(x);
-        let count = self.enumeration.solve(problem, &mut self.trial);
-        Ok(Solved {
-            is_ambiguous: count == Count::Several,
-            jams: problem.jams(x),
-            ..solved
-        })
+        self.attempt(problem, settings, x)
     }
 
-    fn find(
+    fn attempt(
         &mut self,
         problem: &Problem,
         settings: &ContactSettings,

@@ -45,6 +45,12 @@ pub struct Uniqueness {
 }
 
 impl Uniqueness {
+    /// Takes memory for this many rows.
+    pub fn reserve(&mut self, rows: usize) {
+        self.groups.reserve(rows);
+        self.levels.reserve((rows + 1) * rows * rows);
+    }
+
     /// Whether there is one solution for sure. False means that there may be none or several.
     pub fn is_certain(&mut self, problem: &Problem) -> bool {
         self.groups.clear();

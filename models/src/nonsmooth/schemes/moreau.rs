@@ -79,6 +79,7 @@ impl Scheme for Moreau {
         mechanics.add_delassus(dt, None);
         to.forces.copy_from_slice(&from.forces);
         mechanics.solve_problem(&mut to.forces)?;
+        mechanics.judge_problem();
         mechanics.respond(dt, &mut to.v);
 
         add_scaled(0.5 * dt, &to.v, &mut to.q);
