@@ -101,6 +101,15 @@ pub enum StepError {
     /// Forces of contacts were not found.
     #[error("{0}")]
     Contact(#[from] Unsolved),
+    /// Velocities have grown without bound over the last steps.
+    #[error(
+        "the run is unstable: velocities have grown by a factor of {factor:.0e} within some hundred steps. An explicit scheme (moreau, \
+         hets) needs omega step < 2 for every frequency; take a smaller step, or an implicit scheme"
+    )]
+    Unstable {
+        /// By what factor.
+        factor: f64,
+    },
     /// Overflow.
     #[error(
         "the state is not finite any more: the step is beyond the limit of stability of the scheme, or the system is unstable"

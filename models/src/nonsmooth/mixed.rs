@@ -1,9 +1,11 @@
 //! Mixed timestepping (S2 Sect. 2.3, Fig. 4): a step without impacts by a base scheme, corrected by impulses where a
 //! contact closes in it.
 
+mod growth;
 mod losses;
 mod memory;
 
+use self::growth::Growth;
 use super::activity::{closed_contacts, closes_anew};
 use super::contact_log::ContactLog;
 use super::impact;
@@ -32,6 +34,7 @@ pub struct Integrator {
     was_corrected: bool,
     /// Power that friction takes at the start of the step (W).
     friction_power: f64,
+    growth: Growth,
 }
 
 impl Integrator {
@@ -62,6 +65,7 @@ impl Integrator {
             before_impact: vec![0.0; q.len()],
             was_corrected: false,
             friction_power: 0.0,
+            growth: Growth::default(),
             mechanics,
         })
     }
@@ -94,6 +98,12 @@ impl Integrator {
     /// # Errors
     /// [`StepError`].
     pub fn step(&mut self, drive: Drive<'_>, dt: f64) -> Result<(), StepError> {
+        let stepped = self.try_step(drive, dt);
+        self.growth.note(&self.state.v);
+        stepped.map_err(|error| self.growth.explain(error, &self.state.v))
+    }
+
+    fn try_step(&mut self, drive: Drive<'_>, dt: f64) -> Result<(), StepError> {
         self.find_closed();
         let step = Step {
             drive,

@@ -112,7 +112,8 @@ fn explicit_schemes_end_at_their_limit_and_say_so() {
         assert!(below.unwrap() < 1e-3, "{case:?}");
         let beyond = run(2.02, 5000);
         if is_explicit {
-            assert_eq!(beyond, Err(StepError::NotFinite), "{case:?}");
+            let is_told = matches!(beyond, Err(StepError::Unstable { .. }));
+            assert!(is_told, "{case:?} {beyond:?}");
         } else {
             assert!(beyond.unwrap() < 1e-4, "{case:?}");
             assert!(run(100.0, 5000).unwrap() < 1e-3, "{case:?}");
