@@ -214,7 +214,7 @@ impl BorderedBand {
         }
         let (own, given) = (self.shape, other.shape);
         // Row by row: the numbers of `other` stand `stages` places apart here.
-        let mut add = |values: &[f64], to: &mut [f64]| {
+        let add = |values: &[f64], to: &mut [f64]| {
             for (to, value) in to.iter_mut().step_by(stages).zip(values) {
                 *to += factor * value;
             }

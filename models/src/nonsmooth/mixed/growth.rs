@@ -30,7 +30,9 @@ impl Growth {
     /// What a failure means behind these velocities.
     pub fn explain(&self, error: StepError, v: &[f64]) -> StepError {
         let factor = largest(v) / self.older;
-        if self.older > 0.0 && !(factor <= BLOWN_UP) {
+        // Not a number: infinite velocities.
+        let has_blown_up = factor.is_nan() || factor > BLOWN_UP;
+        if self.older > 0.0 && has_blown_up {
             return StepError::Unstable { factor };
         }
         error
