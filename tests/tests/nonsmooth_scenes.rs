@@ -51,7 +51,7 @@ fn threads_and_single_calls_change_no_bit() {
 fn worker_processes_change_no_byte() {
     for (text, overrides) in scenes() {
         let workshop = Workshop::new();
-        workshop.write("scene.toml", text.to_owned());
+        workshop.write("scene.toml", text);
         let table = |name: &str, more: &[&str]| {
             let mut arguments = vec!["run", "scene.toml", "--out", name, "--no-plots", "--quiet"];
             arguments.extend(overrides.iter().flat_map(|own| ["--set", own]));
