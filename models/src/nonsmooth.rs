@@ -1,12 +1,15 @@
 //! Nonsmooth mechanics: impacts and Coulomb friction, rigid and flexible, by mixed timestepping on velocity level.
 //!
-//! Source: S2, that is Rezaei & Schindler, "Mixed timestepping schemes for nonsmooth mechanics with high frequency damping".
+//! Source: S2, that is Rezaei & Schindler, "Mixed timestepping schemes for nonsmooth mechanics with high frequency
+//! damping".
 //!
 //! * [`mixed`]: the algorithm, one step from top to bottom (Fig. 4);
 //! * [`schemes`]: what advances a step without impacts, a file each; [`stages`]: their implicit equations;
-//! * [`activity`], [`impact`], [`start`]: which contacts take part, the impulsive correction, accelerations at an instant;
+//! * [`activity`], [`impact`], [`start`]: which contacts take part, the impulsive correction, accelerations at an
+//!   instant;
 //! * [`contact`]: the contact problem and its solvers; [`contact_log`]: what contacts did;
-//! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and counters;
+//! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and
+//!   counters;
 //! * [`systems`]: mechanical systems; `subsystem`: any of them behind the worker protocol;
 //! * [`state`]: plain values between steps; [`matrix`]: matrices with a border and a band;
 //! * [`spectrum`]: stability, damping and period errors of the schemes.

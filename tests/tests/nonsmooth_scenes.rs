@@ -32,8 +32,8 @@ fn scenes() -> [(&'static str, Vec<&'static str>); 3] {
     ]
 }
 
-/// The state holds all that later steps depend on, warm starts of contact forces included: single calls go back and forth by
-/// snapshots, also in the middle of contacts.
+/// The state holds all that later steps depend on, warm starts of contact forces included: single calls go back and
+/// forth by snapshots, also in the middle of contacts.
 #[test]
 fn threads_and_single_calls_change_no_bit() {
     for (text, overrides) in scenes() {
@@ -94,8 +94,8 @@ fn impacts_are_in_outputs_and_statistics() {
     assert_eq!((contacts.robust, contacts.ambiguous), (0, 0));
 }
 
-/// A flywheel on the shaft of the mechanism, as a subsystem of its own behind a rigid joint, is the same as a crank of more
-/// inertia. The slider is guided, so that nothing jumps.
+/// A flywheel on the shaft of the mechanism, as a subsystem of its own behind a rigid joint, is the same as a crank of
+/// more inertia. The slider is guided, so that nothing jumps.
 #[test]
 fn a_flywheel_behind_a_joint_is_a_heavier_crank() {
     const COUPLED: &str = r#"

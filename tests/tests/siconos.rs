@@ -1,7 +1,8 @@
 //! A second opinion: Siconos (INRIA's platform for nonsmooth dynamics, Debian's python3-siconos) on the same problems.
 //!
-//! `tests/siconos/run.py` runs its Moreau-Jean scheme with compiled callbacks. Both sides approximate the same motion: they
-//! agree to the order of that scheme, which is 1. Where Siconos or a C compiler is missing the tests say so and pass.
+//! `tests/siconos/run.py` runs its Moreau-Jean scheme with compiled callbacks. Both sides approximate the same motion:
+//! they agree to the order of that scheme, which is 1. Where Siconos or a C compiler is missing the tests say so and
+//! pass.
 
 #![allow(clippy::unwrap_used)]
 
@@ -133,7 +134,8 @@ fn largest_difference(samples: &Value, own: &Own) -> f64 {
     pairs.fold(0.0, f64::max)
 }
 
-/// Both tables: differences fall with the step of Siconos, first impact, number of impacts and loss of energy are the same.
+/// Both tables: differences fall with the step of Siconos, first impact, number of impacts and loss of energy are the
+/// same.
 fn compare_slider_crank(
     problem: &str,
     mechanism: Mechanism,

@@ -25,9 +25,9 @@ pub fn spectral_radius(matrix: &Mat<f64>) -> Result<f64, ProbeError> {
         .fold(0.0, f64::max))
 }
 
-/// The places that are left when those are taken out, one after the other, whose row or column has no entry but that on the
-/// diagonal, which then is an eigenvalue. A multiplier that the next step does not remember is such a place; no scaling
-/// could balance it.
+/// The places that are left when those are taken out, one after the other, whose row or column has no entry but that on
+/// the diagonal, which then is an eigenvalue. A multiplier that the next step does not remember is such a place; no
+/// scaling could balance it.
 pub fn entangled(matrix: &Mat<f64>) -> Vec<usize> {
     let mut places: Vec<usize> = (0..matrix.nrows()).collect();
     let is_alone = |places: &[usize], place: usize| {

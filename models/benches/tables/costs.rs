@@ -45,7 +45,8 @@ fn table(text: &mut String, title: &str, guide: Guide, paper: [f64; 5]) {
     let _ = writeln!(text, "## {title}\n");
     let _ = writeln!(
         text,
-        "| scheme | relative time | paper | us a step | iterations | evaluations | factorisations | contact iterations |"
+        "| scheme | relative time | paper | us a step | iterations | evaluations | factorisations | \
+         contact iterations |"
     );
     let _ = writeln!(text, "|---|---|---|---|---|---|---|---|");
     for (place, (name, _)) in SCHEMES.into_iter().enumerate() {
@@ -65,6 +66,7 @@ fn table(text: &mut String, title: &str, guide: Guide, paper: [f64; 5]) {
     }
     let _ = writeln!(
         text,
-        "\nIterations of stages, evaluations of mass matrix and forces, factorisations and iterations of the contact solver are\nnumbers for a step.\n"
+        "\nIterations of stages, evaluations of mass matrix and forces, factorisations and iterations of the contact\n\
+         solver are numbers for a step.\n"
     );
 }

@@ -33,8 +33,8 @@ fn bilateral(text: &mut String) {
     let _ = writeln!(
         text,
         "## Table 4: error of theta_2 over the step, without clearance\n\n\
-         Norm of S2 eq. (92), samples every {interval:e} s, against the mechanism in its one coordinate (Radau IIA, 1e-13). Without\n\
-         friction: with the friction of Table 1 the paper's figures do not come out.\n"
+         Norm of S2 eq. (92), samples every {interval:e} s, against the mechanism in its one coordinate (Radau IIA, 1e-13).\n\
+         Without friction: with the friction of Table 1 the paper's figures do not come out.\n"
     );
     let guide = Guide::Bilateral { friction: 0.0 };
     rows(text, paper, |scheme, dt| {

@@ -1,8 +1,8 @@
 //! Tables 3 to 6 of S2 with our own figures beside the paper's, and speed against error beside Siconos.
 //!
 //! `cargo bench -p linchpin-models --bench tables` prints them; `-- --write` writes them to `docs/nonsmooth-tables.md`.
-//! Times are the least of several runs in turn, so that other work of the machine counts little; errors and counts are the same
-//! on every machine. Siconos takes part where `python3-siconos` and a C compiler are installed.
+//! Times are the least of several runs in turn, so that other work of the machine counts little; errors and counts are
+//! the same on every machine. Siconos takes part where `python3-siconos` and a C compiler are installed.
 
 // A bench stops at the first thing that is not as it should be.
 #![allow(clippy::unwrap_used)]

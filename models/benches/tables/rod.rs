@@ -84,8 +84,8 @@ fn costs() -> String {
     let sizes = [4, 10, 20, 40, 80];
     let mut text = String::from(
         "## Cost of a step over the elements of the rod\n\n\
-         Table 2 of S2, microseconds a step; dt = 1e-5 s, for Moreau and HETS 1e-9 s, which they need with 80 elements. The last column\n\
-         has six modes of 20 elements.\n\n\
+         Table 2 of S2, microseconds a step; dt = 1e-5 s, for Moreau and HETS 1e-9 s, which they need with 80 elements. The last\n\
+         column has six modes of 20 elements.\n\n\
          | scheme | 4 | 10 | 20 | 40 | 80 | 80 over 40 | six modes |\n|---|---|---|---|---|---|---|---|\n",
     );
     for (name, scheme) in SCHEMES {
@@ -147,8 +147,8 @@ const HARD: [(&str, SchemeKind); 8] = [
 fn hard_cases() -> String {
     let mut text = String::from(
         "## Hard cases: stiffness and step\n\n\
-         Table 2 with 4 elements to t = 0.05 s: error of the crank's angle (rad), largest at 50 instants, against ED-alpha (0) with\n\
-         dt = 1e-6 s, and iterations a step. The limit of the explicit schemes is 2 over the\n\
+         Table 2 with 4 elements to t = 0.05 s: error of the crank's angle (rad), largest at 50 instants, against ED-alpha (0)\n\
+         with dt = 1e-6 s, and iterations a step. The limit of the explicit schemes is 2 over the\n\
          highest frequency of the mechanism; there 20,000 steps are taken, whose error says nothing.\n\n",
     );
     for youngs_modulus in [1e9, STEEL, 1e13, 1e15] {

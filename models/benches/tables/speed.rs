@@ -24,8 +24,8 @@ pub fn table() -> String {
     let samples = exact.len();
     let mut text = String::from(
         "## Speed against error, with clearance\n\n\
-         Largest error of an angle (rad) at 50 instants against the event-driven reference (`tests/golden/s2/event_table1.csv`), time of\n\
-         the run to 0.05 s. Siconos: Moreau-Jean, theta = 1/2, compiled callbacks, enumerative contact solver.\n\n\
+         Largest error of an angle (rad) at 50 instants against the event-driven reference\n\
+         (`tests/golden/s2/event_table1.csv`), time of the run to 0.05 s. Siconos: Moreau-Jean, theta = 1/2, compiled callbacks, enumerative contact solver.\n\n\
          | scheme | dt in s | us a step | ms a run | error |\n|---|---|---|---|---|\n",
     );
     let mut curves: Vec<(String, Vec<Point>)> = Vec::new();
@@ -92,7 +92,8 @@ fn compare(text: &mut String, curves: &[(String, Vec<Point>)], others: &[Point])
     let finest = others[others.len() - 1];
     let _ = writeln!(
         text,
-        "\nFor the error that Siconos has with its finest step, {:.1e} rad (times between the rows by straight lines in logarithms):\n\n\
+        "\nFor the error that Siconos has with its finest step, {:.1e} rad (times between the rows by straight lines\n\
+         in logarithms):\n\n\
          | scheme | ms a run | faster than Siconos by |\n|---|---|---|",
         finest.error
     );

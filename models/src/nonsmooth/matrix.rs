@@ -5,8 +5,8 @@
 //!   | C  A |   R, C: dense; A: a band of `half_bandwidth` diagonals on each side
 //! ```
 //!
-//! A rigid mechanism is all border; a rod has the angles of its axes in the border and its elements in the band, so that
-//! a factorisation costs of the order of `n (half_bandwidth^2 + border half_bandwidth)`.
+//! A rigid mechanism is all border; a rod has the angles of its axes in the border and its elements in the band, so
+//! that a factorisation costs of the order of `n (half_bandwidth^2 + border half_bandwidth)`.
 
 mod band;
 mod dense;

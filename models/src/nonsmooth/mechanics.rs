@@ -1,121 +1,18 @@
 //! A mechanical system with what every step needs of it: rows of contacts, contact problems, counters.
 
-use super::contact::{ContactSettings, ContactSolver, Law, Problem, Solved, SolverKind, Unsolved};
+mod counters;
+mod error;
+mod settings;
+
+use super::contact::{ContactSolver, Law, Problem, Solved, SolverKind, Unsolved};
 use super::matrix::{BorderedBand, Factors, Shape, Singular, dot};
 use super::stages::MOST_STAGES;
 use super::state::Drive;
 use super::system::{Contact, Instant, MechanicalSystem, Side, rows};
 
-/// On which level closed contacts are held during the non-impulsive part of a step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Level {
-    /// `g' = 0` at the end of the step: what S2 develops. Gaps drift by what one step leaves.
-    Velocity,
-    /// `g'' = 0` at the end of the step: for comparison (S2 Figs. 17, 18). Velocities drift.
-    Acceleration,
-}
-
-/// How steps are taken, whatever the scheme.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// Level of the contacts.
-    pub level: Level,
-    /// Whether the accelerations at the start agree with closed contacts. Otherwise they are those without contacts, as
-    /// printed in S2 eqs. (25), (62), (83); then a constraint drifts and its force oscillates.
-    pub has_consistent_start: bool,
-    /// Whether accelerations are found anew behind an impact. Otherwise those before it go on, as in S2; then the
-    /// schemes that carry accelerations lose their order.
-    pub restarts_after_impacts: bool,
-    /// Whether a contact that presses stays closed even if its gap drifted above 0. Otherwise it opens then, as S2 eq.
-    /// (41) has it, and closes again with an impact; that happens where directions of contacts turn, as in rolling and
-    /// rocking. Moreau's rule always looks at the gap alone.
-    pub holds_pressed_contacts: bool,
-    /// The iteration of a step ends when velocities change by less than this share of their size.
-    pub tolerance: f64,
-    /// Iterations of a step at most.
-    pub most_iterations: usize,
-    /// How contact problems are solved.
-    pub contact: ContactSettings,
-}
-
-/// The defaults of [`Settings`].
-pub const DEFAULT: Settings = Settings {
-    level: Level::Velocity,
-    has_consistent_start: true,
-    restarts_after_impacts: true,
-    holds_pressed_contacts: true,
-    tolerance: 1e-12,
-    most_iterations: 50,
-    contact: super::contact::DEFAULT,
-};
-
-impl Default for Settings {
-    fn default() -> Self {
-        DEFAULT
-    }
-}
-
-/// What was done since the start of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Counters {
-    /// Steps.
-    pub steps: u64,
-    /// Iterations of stages.
-    pub iterations: u64,
-    /// Evaluations of mass matrix and forces.
-    pub evaluations: u64,
-    /// Factorisations of matrices of the size of the system; those of two coupled stages count as one.
-    pub factorisations: u64,
-    /// Contact problems that were not empty, by the solver that solved them: Gauss-Newton, the same restarted,
-    /// Gauss-Seidel, enumeration.
-    pub contact_problems: [u64; 4],
-    /// Iterations of their solvers.
-    pub contact_iterations: u64,
-    /// Contact problems with several solutions (Painleve).
-    pub ambiguous: u64,
-    /// Contact problems in which a pressed contact jams: its force is that of an impact without collision (Painleve).
-    pub jams: u64,
-    /// Largest residual of a contact problem (m/s).
-    pub largest_residual: f64,
-    /// Largest change of the velocities in the last iteration of a step, as a share of their size.
-    pub largest_change: f64,
-}
-
-/// Why a step fails.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum StepError {
-    /// The iteration of a stage does not converge.
-    #[error(
-        "the iteration of a step does not converge: after {iterations} iterations velocities still change by {change:.1e} of their \
-         size; a smaller step helps"
-    )]
-    NotConverged {
-        /// Iterations.
-        iterations: usize,
-        /// Last change, relative.
-        change: f64,
-    },
-    /// The matrix of a step has no inverse.
-    #[error("the effective mass matrix of a step is singular: {0}")]
-    Singular(#[from] Singular),
-    /// Forces of contacts were not found.
-    #[error("{0}")]
-    Contact(#[from] Unsolved),
-    /// Velocities have grown without bound over the last steps.
-    #[error(
-        "the run is unstable: velocities have grown by a factor of {factor:.0e} within some hundred steps. An explicit scheme (moreau, \
-         hets) needs omega step < 2 for every frequency; take a smaller step, or an implicit scheme"
-    )]
-    Unstable {
-        /// By what factor.
-        factor: f64,
-    },
-    /// Overflow.
-    #[error(
-        "the state is not finite any more: the step is beyond the limit of stability of the scheme, or the system is unstable"
-    )]
-    NotFinite,
-}
+pub use counters::Counters;
+pub use error::StepError;
+pub use settings::{DEFAULT, Level, Settings};
 
 /// A system, its contacts in rows, and room to work.
 pub struct Mechanics {

@@ -27,8 +27,8 @@ pub use moreau::Moreau;
 
 /// A base integration scheme with its room to work.
 pub trait Scheme: Send {
-    /// Advances `from` over `step` to `to`: `q`, `v^-`, `a`, `A` and forces at its end. Everything of `to` but its time and
-    /// its impulses is written, and nothing else is changed.
+    /// Advances `from` over `step` to `to`: `q`, `v^-`, `a`, `A` and forces at its end. Everything of `to` but its time
+    /// and its impulses is written, and nothing else is changed.
     fn advance(
         &mut self,
         mechanics: &mut Mechanics,
@@ -101,7 +101,8 @@ pub enum SchemeError {
     AlphaAr(f64),
     /// ED-alpha without damping cannot hold contacts.
     #[error(
-        "ed-alpha with rho_inf = 1 cannot hold contacts or constraints: their forces would oscillate without bound and pull; \
+        "ed-alpha with rho_inf = 1 cannot hold contacts or constraints: their forces would oscillate without bound \
+         and pull; \
          take rho_inf < 1, or another scheme"
     )]
     UndampedContacts,

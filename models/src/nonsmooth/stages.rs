@@ -1,12 +1,12 @@
 //! The implicit stages of a step: equations of motion and contact laws at one or two instants, solved together.
 //!
-//! All schemes here write coordinates and accelerations of a stage as known parts plus multiples of the unknown velocities
-//! of the stages, `q_r = q^_r + sum_c Q_rc v_c` and `a_r = a^_r + sum_c A_rc v_c`. The stages must meet
+//! All schemes here write coordinates and accelerations of a stage as known parts plus multiples of the unknown
+//! velocities of the stages, `q_r = q^_r + sum_c Q_rc v_c` and `a_r = a^_r + sum_c A_rc v_c`. The stages must meet
 //! `M(q_r) a_r = f(t_r, q_r, v_r) + W(q_r) lambda_r` and the laws of contact for `W^T(q_r) v_r`.
 //!
-//! Each iteration solves that with the effective matrix of blocks `A_rc M_r + delta_rc C_r + Q_rc K_r`. Since the residual
-//! has all terms, this is the fixed-point iteration of S2 eqs. (55), (75), (76), (85) where `K` and `C` are the linear
-//! parts of the forces, and Newton's method where they are all of their derivatives.
+//! Each iteration solves that with the effective matrix of blocks `A_rc M_r + delta_rc C_r + Q_rc K_r`. Since the
+//! residual has all terms, this is the fixed-point iteration of S2 eqs. (55), (75), (76), (85) where `K` and `C` are
+//! the linear parts of the forces, and Newton's method where they are all of their derivatives.
 
 use super::matrix::{BorderedBand, Factors, add_scaled, dot};
 use super::mechanics::{Level, Mechanics, StepError};
@@ -70,8 +70,8 @@ pub struct Stages {
     /// What is left, then the free velocities: stages side by side.
     staged: Vec<f64>,
     responses: Vec<f64>,
-    /// Largest velocity so far in this solution, without contact forces included: what changes are compared with. A solution
-    /// near 0 would be compared with its own rounding.
+    /// Largest velocity so far in this solution, without contact forces included: what changes are compared with. A
+    /// solution near 0 would be compared with its own rounding.
     size: f64,
 }
 

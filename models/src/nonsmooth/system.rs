@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::matrix::{BorderedBand, Shape};
 
-/// One contact or constraint of a mechanical system: its laws. Its kinematics are rows of [`MechanicalSystem::directions`].
+/// One contact or constraint of a mechanical system: its laws. Its kinematics are rows of
+/// [`MechanicalSystem::directions`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Contact {
     /// Whether it can open.
@@ -59,9 +60,9 @@ pub struct Instant<'a> {
 
 /// A mechanical system with contacts, `M(q) a = f(t, q, v, u) + W(q) lambda` (S2 eq. 16, with `f = h - C v - K q`).
 ///
-/// `n` coordinates `q` with velocities `v = q'`. Every contact has a gap `g_N(q)` (m, or rad for an angle), a normal row
-/// `W_N^T = dg_N/dq`, and tangential rows `W_T^T` with `g_T' = W_T^T v`. Forces act on the system as `W lambda`: a normal
-/// force presses the gap open where it is positive, a tangential one acts along growing `g_T`. SI units.
+/// `n` coordinates `q` with velocities `v = q'`. Every contact has a gap `g_N(q)` (m, or rad for an angle), a normal
+/// row `W_N^T = dg_N/dq`, and tangential rows `W_T^T` with `g_T' = W_T^T v`. Forces act on the system as `W lambda`: a
+/// normal force presses the gap open where it is positive, a tangential one acts along growing `g_T`. SI units.
 pub trait MechanicalSystem: Send {
     /// Number of coordinates and structure of the matrices `M`, `C`, `K`.
     fn shape(&self) -> Shape;
@@ -75,8 +76,8 @@ pub trait MechanicalSystem: Send {
     /// Writes all forces but those of the contacts.
     fn force(&self, at: Instant<'_>, force: &mut [f64]);
 
-    /// Adds `K = -df/dq` and `C = -df/dv` to matrices of zeros, as far as the scheme is to treat them implicitly: what is
-    /// stiff must be there; what is left out is found by iteration. Returns whether there is anything.
+    /// Adds `K = -df/dq` and `C = -df/dv` to matrices of zeros, as far as the scheme is to treat them implicitly: what
+    /// is stiff must be there; what is left out is found by iteration. Returns whether there is anything.
     fn tangents(
         &self,
         _at: Instant<'_>,
@@ -92,7 +93,8 @@ pub trait MechanicalSystem: Send {
     /// Writes `W^T(q)`, a row of `n` numbers after the other: for every contact its normal row, then its tangents.
     fn directions(&self, q: &[f64], rows: &mut [f64]);
 
-    /// Writes, for every row of [`MechanicalSystem::directions`], `(dW^T/dt) v`: what its rate changes by besides `W^T a`.
+    /// Writes, for every row of [`MechanicalSystem::directions`], `(dW^T/dt) v`: what its rate changes by besides `W^T
+    /// a`.
     fn direction_rates(&self, q: &[f64], v: &[f64], rates: &mut [f64]);
 
     /// Kinetic and potential energy (J).

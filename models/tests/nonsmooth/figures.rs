@@ -112,8 +112,8 @@ fn switches(looks: &[Look]) -> usize {
         .count()
 }
 
-/// Fig. 20: with more elements the path of the slider converges, and equally for all schemes: before the first impact (2.69 ms) with
-/// the elements squared, and behind it. Later paths differ by what small differences at impacts grow to.
+/// Fig. 20: with more elements the path of the slider converges, and equally for all schemes: before the first impact
+/// (2.69 ms) with the elements squared, and behind it. Later paths differ by what small differences at impacts grow to.
 #[test]
 fn paths_converge_with_the_elements_for_every_scheme() {
     for scheme in [GA_08, GA_0, BATHE, ED_0] {
@@ -136,8 +136,8 @@ fn paths_converge_with_the_elements_for_every_scheme() {
     }
 }
 
-/// Fig. 21: an almost rigid rod (E = 1e15) follows the rigid mechanism to 3e-6 of the clearance up to the first impact, and to a
-/// quarter of it afterwards.
+/// Fig. 21: an almost rigid rod (E = 1e15) follows the rigid mechanism to 3e-6 of the clearance up to the first impact,
+/// and to a quarter of it afterwards.
 #[test]
 fn an_almost_rigid_rod_follows_the_rigid_mechanism() {
     let stiff = run(&table_1(4, 1e15), BATHE, 1e-5, 0.05);
@@ -153,9 +153,9 @@ fn an_almost_rigid_rod_follows_the_rigid_mechanism() {
     }
 }
 
-/// Figs. 24 to 27, Table 2 with 10 elements: the angles are nearly the same for all schemes, the less a scheme damps the more the
-/// moment at the root vibrates, and the more often contacts open and close. That generalised-alpha with rho_inf = 0.8 and 0.5 becomes
-/// unstable soon after 0.05 s was not reproduced.
+/// Figs. 24 to 27, Table 2 with 10 elements: the angles are nearly the same for all schemes, the less a scheme damps
+/// the more the moment at the root vibrates, and the more often contacts open and close. That generalised-alpha with
+/// rho_inf = 0.8 and 0.5 becomes unstable soon after 0.05 s was not reproduced.
 #[test]
 fn damping_of_high_frequencies() {
     let schemes = [GA_08, GA_05, GA_0, BATHE];
@@ -192,8 +192,8 @@ fn damping_of_high_frequencies() {
     );
 }
 
-/// Figs. 28, 29: over half a second with steps of 1e-4 s ED-alpha and Bathe's method give the same motion and, up to shifts, the same
-/// forces.
+/// Figs. 28, 29: over half a second with steps of 1e-4 s ED-alpha and Bathe's method give the same motion and, up to
+/// shifts, the same forces.
 #[test]
 fn ed_alpha_and_bathe_agree_over_a_longer_time() {
     let case = table_2(10, None, Reference::Tangential);
@@ -213,8 +213,8 @@ fn mean_force(looks: &[Look]) -> f64 {
     looks.iter().map(|look| look.lower_force).sum::<f64>() / looks.len() as f64
 }
 
-/// Figs. 30 to 32: modes converge to all nodes, more are needed once there was an impact, and both reference conditions show
-/// the same general pattern.
+/// Figs. 30 to 32: modes converge to all nodes, more are needed once there was an impact, and both reference conditions
+/// show the same general pattern.
 #[test]
 fn modes_converge_to_all_nodes() {
     let of = |modes, reference| run(&table_2(21, modes, reference), BATHE, 1e-5, 0.03);

@@ -69,8 +69,8 @@ fn soft_masses_follow_and_ed_alpha_has_the_smallest_phase_shift() {
     );
 }
 
-/// Fig. 16: with steps of half the period of the stiff spring (503 Hz), generalised-alpha with rho_inf = 0.8 still shows
-/// its vibration; with rho_inf = 0 and with ED-alpha it is gone in a few steps. Bathe's method needs some 20.
+/// Fig. 16: with steps of half the period of the stiff spring (503 Hz), generalised-alpha with rho_inf = 0.8 still
+/// shows its vibration; with rho_inf = 0 and with ED-alpha it is gone in a few steps. Bathe's method needs some 20.
 #[test]
 fn the_stiff_vibration_is_kept_or_damped() {
     let middle = GRAVITY / STIFF;
@@ -108,8 +108,9 @@ fn printed(level: Level) -> Settings {
     }
 }
 
-/// Fig. 17: on acceleration level a constant velocity `g dt/2` is left, and the mass drifts away; on velocity level a constant
-/// error of the position is left. Both come from the acceleration at the start that ignores the constraint (errata).
+/// Fig. 17: on acceleration level a constant velocity `g dt/2` is left, and the mass drifts away; on velocity level a
+/// constant error of the position is left. Both come from the acceleration at the start that ignores the constraint
+/// (errata).
 #[test]
 fn levels_of_the_constraint() {
     let mut stand = constrained(GA_1, printed(Level::Acceleration));
@@ -158,8 +159,8 @@ fn oscillation(stand: &mut Stand, steps: usize) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// Fig. 18: without damping the force oscillates from step to step by `g`, for ever; damping takes that away, and so do Bathe's
-/// method and ED-alpha. With a consistent start nothing oscillates in the first place.
+/// Fig. 18: without damping the force oscillates from step to step by `g`, for ever; damping takes that away, and so do
+/// Bathe's method and ED-alpha. With a consistent start nothing oscillates in the first place.
 #[test]
 fn oscillation_of_the_force() {
     let late = |scheme, settings| {

@@ -123,7 +123,8 @@ pub struct Judgement {
 pub enum Unsolved {
     /// No contact state meets all laws.
     #[error(
-        "the contact problem has no solution: friction is so high that a contact jams (Painleve); an impact without collision, \
+        "the contact problem has no solution: friction is so high that a contact jams (Painleve); an impact without \
+         collision, \
          which is not modelled, would be the way on"
     )]
     NoSolution,
@@ -179,8 +180,8 @@ impl ContactSolver {
         })
     }
 
-    /// Whether other forces than `x` solve a problem as well. It costs about as much as the solution, so that of the problems of
-    /// an iteration only the last one is judged.
+    /// Whether other forces than `x` solve a problem as well. It costs about as much as the solution, so that of the
+    /// problems of an iteration only the last one is judged.
     pub fn judge(&mut self, problem: &Problem, x: &[f64]) -> Judgement {
         if problem.is_empty() || self.uniqueness.is_certain(problem) {
             return Judgement::default();

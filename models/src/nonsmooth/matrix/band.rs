@@ -2,8 +2,8 @@
 
 use super::Singular;
 
-/// Factors of a matrix with `half` diagonals on each side: `P A = L U` with exchanges of neighbouring rows, so that `U` has
-/// `2 half` diagonals above its main one (LAPACK's dgbtf2; Golub & Van Loan, Sect. 4.3.5).
+/// Factors of a matrix with `half` diagonals on each side: `P A = L U` with exchanges of neighbouring rows, so that `U`
+/// has `2 half` diagonals above its main one (LAPACK's dgbtf2; Golub & Van Loan, Sect. 4.3.5).
 #[derive(Debug, Clone)]
 pub struct BandFactors {
     order: usize,

@@ -4,8 +4,8 @@ use crate::nonsmooth::mechanics::StepError;
 
 /// Steps between two marks.
 const STRIDE: u64 = 256;
-/// From rest velocities grow at most by the number of steps between two marks under constant forces; beyond the limit of
-/// stability they grow by a factor in each step.
+/// From rest velocities grow at most by the number of steps between two marks under constant forces; beyond the limit
+/// of stability they grow by a factor in each step.
 const BLOWN_UP: f64 = 1e6;
 
 /// The largest velocity now and some hundred steps ago.

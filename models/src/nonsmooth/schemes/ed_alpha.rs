@@ -1,15 +1,16 @@
-//! The energy decaying ED-alpha method on velocity level (S2 Sect. 2.7, eqs. 77 to 84; Bottasso 1997, Bottasso & Trainelli 2004).
+//! The energy decaying ED-alpha method on velocity level (S2 Sect. 2.7, eqs. 77 to 84; Bottasso 1997, Bottasso &
+//! Trainelli 2004).
 //!
-//! The motion may jump at the start of the step, to the stage `j` at `t_i`; the equations of motion and the laws of contact
-//! hold there and at `t_{i+1}`, and both are solved together.
+//! The motion may jump at the start of the step, to the stage `j` at `t_i`; the equations of motion and the laws of
+//! contact hold there and at `t_{i+1}`, and both are solved together.
 //!
 //! ```text
 //! v_j = v_i + dt alpha_ar [alpha (a_j - a_i) - a_{i+1} + a_i],   v_{i+1} = v_i + dt/2 (a_j + a_{i+1})   (79, 80)
 //! q_j = q_i + dt alpha_ar [alpha (v_j - v_i) - v_{i+1} + v_i],   q_{i+1} = q_i + dt/2 (v_j + v_{i+1})   (81, 82)
 //! ```
 //!
-//! `alpha = (1 - rho_inf)/(1 + rho_inf)` (84) gives the spectral radius for infinite frequency, whatever `alpha_ar`, which
-//! places the cut-off. Order 2; for linear systems 3 with `alpha_ar = 1/6`.
+//! `alpha = (1 - rho_inf)/(1 + rho_inf)` (84) gives the spectral radius for infinite frequency, whatever `alpha_ar`,
+//! which places the cut-off. Order 2; for linear systems 3 with `alpha_ar = 1/6`.
 
 use super::{Outcome, Scheme, SchemeError};
 use crate::nonsmooth::mechanics::{Mechanics, StepError};

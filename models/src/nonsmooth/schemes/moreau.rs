@@ -6,8 +6,8 @@
 //! q_{i+1} = q_m + dt/2 v_{i+1}
 //! ```
 //!
-//! The impulses `P` of the contacts that are closed at the middle hold impacts and forces together, by Newton's law of impact
-//! for `W^T v`. Order 1 where a contact is closed. Explicit: stable for `omega dt < 2`.
+//! The impulses `P` of the contacts that are closed at the middle hold impacts and forces together, by Newton's law of
+//! impact for `W^T v`. Order 1 where a contact is closed. Explicit: stable for `omega dt < 2`.
 
 use super::{Outcome, Scheme};
 use crate::nonsmooth::activity::{closed_contacts, closes_anew};

@@ -127,7 +127,8 @@ fn common() -> Vec<v1::Parameter> {
         ),
         flag(
             "hold_pressed",
-            "1: a contact that presses stays closed where rounding or drift opens its gap; 0: the gap alone decides, as in the paper",
+            "1: a contact that presses stays closed where rounding or drift opens its gap; 0: the gap alone decides, \
+             as in the paper",
             1.0,
         ),
         flag(
@@ -137,7 +138,8 @@ fn common() -> Vec<v1::Parameter> {
         ),
         flag(
             "acceleration_level",
-            "0: contacts are held on velocity level; 1: on acceleration level, for comparison (not moreau, hets, bathe, ed-alpha)",
+            "0: contacts are held on velocity level; 1: on acceleration level, for comparison (not moreau, hets, \
+             bathe, ed-alpha)",
             0.0,
         ),
     ]
@@ -197,7 +199,8 @@ fn settings(setup: &Setup, scheme: SchemeKind) -> Result<Settings, SetupError> {
     if flag("acceleration_level")? && !has_level {
         return Err(SetupError::Refused {
             field: "solver.acceleration_level".to_owned(),
-            reason: "only generalized-alpha and newmark-alpha hold contacts on acceleration level; leave it out".to_owned(),
+            reason: "only generalized-alpha and newmark-alpha hold contacts on acceleration level; leave it \
+             out".to_owned(),
         });
     }
     let defaults = Settings::default();

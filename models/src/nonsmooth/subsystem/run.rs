@@ -182,7 +182,8 @@ impl Run {
         }
     }
 
-    /// Accelerations and forces at the start under the inputs that are held; the first step finds them anew under its own.
+    /// Accelerations and forces at the start under the inputs that are held; the first step finds them anew under its
+    /// own.
     fn show_start(&mut self, t: f64) -> Result<(), StepFailure> {
         let drive = Drive {
             start: t,
@@ -192,8 +193,8 @@ impl Run {
         started.map_err(|error| failed(t, error))
     }
 
-    /// Accelerations under the inputs that are held, which are constant, so that the time since the start of an interval
-    /// does not matter to them.
+    /// Accelerations under the inputs that are held, which are constant, so that the time since the start of an
+    /// interval does not matter to them.
     fn accelerate(&mut self, t: f64) -> Result<(), StepFailure> {
         let drive = Drive {
             start: t - self.integrator.state.tau,

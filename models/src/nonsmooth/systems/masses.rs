@@ -1,5 +1,5 @@
-//! Three masses in a row (S2 Sect. 2.8, eq. 91, Fig. 14): springs, a constant acceleration, and at the last mass a stiff
-//! spring (a) or a constraint `q_3 = 0` (b).
+//! Three masses in a row (S2 Sect. 2.8, eq. 91, Fig. 14): springs, a constant acceleration, and at the last mass a
+//! stiff spring (a) or a constraint `q_3 = 0` (b).
 
 use crate::nonsmooth::matrix::{BorderedBand, Shape};
 use crate::nonsmooth::system::{Contact, Instant, MechanicalSystem};

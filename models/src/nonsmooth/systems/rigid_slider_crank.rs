@@ -1,7 +1,7 @@
 //! The rigid slider-crank mechanism with a translational clearance joint (Flores, Leine & Glocker 2010; S2 Sect. 4.1).
 //!
-//! Coordinates: angles of crank and rod from the x axis and of the slider, `q = (theta_1, theta_2, theta_3)` (rad). The slider's
-//! centre of mass is the end of the rod. With `c = cos(theta_1 - theta_2)` and `s = sin(theta_1 - theta_2)`
+//! Coordinates: angles of crank and rod from the x axis and of the slider, `q = (theta_1, theta_2, theta_3)` (rad). The
+//! slider's centre of mass is the end of the rod. With `c = cos(theta_1 - theta_2)` and `s = sin(theta_1 - theta_2)`
 //!
 //! ```text
 //!     | A    C c  0   |        A = J_1 + m_1 l_1^2/4 + (m_2 + m_3) l_1^2
@@ -37,8 +37,8 @@ pub struct Mechanism {
 pub enum Guide {
     /// Corners that touch the walls of the notch.
     Clearance(CornerLaw),
-    /// No clearance: `y = 0` with friction, and `theta_3 = 0`. For four corners that are closed all the time their own normal
-    /// forces are not determined; these two are.
+    /// No clearance: `y = 0` with friction, and `theta_3 = 0`. For four corners that are closed all the time their own
+    /// normal forces are not determined; these two are.
     Bilateral {
         /// Coulomb's coefficient of the force across.
         friction: f64,

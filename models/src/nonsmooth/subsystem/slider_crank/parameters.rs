@@ -75,7 +75,8 @@ pub const KEYS: &[Key] = &[
     text(
         "guide",
         &["clearance", "bilateral", "free"],
-        "\"clearance\" (the default): corners and walls; \"bilateral\": y = 0 and angle 0 without clearance; \"free\": no notch",
+        "\"clearance\" (the default): corners and walls; \"bilateral\": y = 0 and angle 0 without clearance; \
+         \"free\": no notch",
     ),
     number(
         "elements",
@@ -91,7 +92,8 @@ pub const KEYS: &[Key] = &[
     text(
         "reference",
         &["tangential", "pinned"],
-        "what the frame of the flexible rod is tied to: \"tangential\" to its root (the default), \"pinned\" to both ends",
+        "what the frame of the flexible rod is tied to: \"tangential\" to its root (the default), \"pinned\" to both \
+         ends",
     ),
     text(
         "rotary_inertia",
@@ -130,7 +132,8 @@ pub const KEYS: &[Key] = &[
         "magnification",
         "1",
         1.0,
-        "of clearance, tilt and deflection in the markers that are only drawn (slider, corner, upper, lower, rod), 1 or greater",
+        "of clearance, tilt and deflection in the markers that are only drawn (slider, corner, upper, lower, rod), 1 \
+         or greater",
     ),
     number("theta1_0", "rad", 0.0, "angle of the crank at the start"),
     number("theta2_0", "rad", 0.0, "angle of the rod at the start"),

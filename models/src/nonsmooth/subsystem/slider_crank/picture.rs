@@ -63,7 +63,8 @@ impl Picture {
         }
     }
 
-    /// Place of a corner or a wall, as `(x, y, angle)`, with the centre of the slider; that of a node is the rod's to say.
+    /// Place of a corner or a wall, as `(x, y, angle)`, with the centre of the slider; that of a node is the rod's to
+    /// say.
     pub fn place(&self, drawn: Drawn, [x, y, angle]: [f64; 3]) -> [f64; 3] {
         match drawn {
             Drawn::Corner(corner) => {
