@@ -215,6 +215,8 @@ pub struct ContactStatistics {
     pub robust: u64,
     /// Of them: with several solutions.
     pub ambiguous: u64,
+    /// Of them: a contact jams.
+    pub jams: u64,
 }
 
 impl From<v1::Contacts> for ContactStatistics {
@@ -228,6 +230,7 @@ impl From<v1::Contacts> for ContactStatistics {
             problems: contacts.problems,
             robust: contacts.robust,
             ambiguous: contacts.ambiguous,
+            jams: contacts.jams,
         }
     }
 }

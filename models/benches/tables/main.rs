@@ -21,8 +21,8 @@ const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/nonsmooth-t
 
 const HEAD: &str = "# Schemes for nonsmooth mechanics: cost and error
 
-Written by `cargo bench -p linchpin-models --bench tables -- --write`. S2 is Rezaei & Schindler; its figures stand in the columns
-\"paper\". The mechanism is the rigid slider-crank of its Table 1. Times are the least of several runs on one core.
+Written by `cargo bench -p linchpin-models --bench tables -- --write`. S2 is Rezaei & Schindler; its figures
+stand in the columns \"paper\". The mechanism is the rigid slider-crank of its Table 1. Times are the least of several runs on one core.
 ";
 
 fn main() {

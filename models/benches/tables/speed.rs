@@ -25,7 +25,8 @@ pub fn table() -> String {
     let mut text = String::from(
         "## Speed against error, with clearance\n\n\
          Largest error of an angle (rad) at 50 instants against the event-driven reference\n\
-         (`tests/golden/s2/event_table1.csv`), time of the run to 0.05 s. Siconos: Moreau-Jean, theta = 1/2, compiled callbacks, enumerative contact solver.\n\n\
+         (`tests/golden/s2/event_table1.csv`), time of the run to 0.05 s. Siconos: Moreau-Jean, theta = 1/2,\n\
+         compiled callbacks, enumerative contact solver.\n\n\
          | scheme | dt in s | us a step | ms a run | error |\n|---|---|---|---|---|\n",
     );
     let mut curves: Vec<(String, Vec<Point>)> = Vec::new();

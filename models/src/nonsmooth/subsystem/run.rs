@@ -343,6 +343,7 @@ impl Subsystem for Run {
             problems: counters.contact_problems.iter().sum(),
             robust: robust.iter().sum(),
             ambiguous: counters.ambiguous,
+            jams: counters.jams,
         })
     }
 }

@@ -54,5 +54,13 @@ fn write_warnings(contacts: &ContactStatistics, text: &mut String) -> std::fmt::
             contacts.ambiguous
         )?;
     }
+    if contacts.jams > 0 {
+        writeln!(
+            text,
+            "  WARNING: {} times a pressed contact jammed (Painleve): its force was that of an impact without collision, of \
+             which the schemes model the stop of the slip at most; lower the friction",
+            contacts.jams
+        )?;
+    }
     Ok(())
 }
