@@ -25,6 +25,11 @@ pub mod spatial_body;
 
 use linchpin_worker::Model;
 
+/// The examples of the guide are compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../../docs/nonsmooth-own-system.md")]
+pub struct Guide;
+
 /// All built-in models.
 pub fn models() -> Vec<Box<dyn Model>> {
     vec![
