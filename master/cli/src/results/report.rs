@@ -179,7 +179,7 @@ impl RunReport {
                 subsystem.subsystem, subsystem.route, subsystem.time_in_solver
             )?;
         }
-        contacts::write(statistics, text)?;
+        contacts::write(scene, statistics, text)?;
         // Steps that vary follow the error, whatever they resolve.
         if statistics.steps.is_none() {
             write_unresolved(statistics, text)?;

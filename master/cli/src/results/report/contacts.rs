@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use linchpin_master::results::{ContactStatistics, Statistics};
+use linchpin_master::scene::{Joint, Scene, Side};
 
 /// Writes lines on every subsystem with contacts; what should not be is written as a warning.
-pub fn write(statistics: &Statistics, text: &mut String) -> std::fmt::Result {
+pub fn write(scene: &Scene, statistics: &Statistics, text: &mut String) -> std::fmt::Result {
     for subsystem in &statistics.subsystems {
         if let Some(contacts) = &subsystem.contacts {
             writeln!(
@@ -15,6 +16,7 @@ pub fn write(statistics: &Statistics, text: &mut String) -> std::fmt::Result {
             )?;
             write_impacts(contacts, text)?;
             write_warnings(contacts, text)?;
+            write_crossing(scene, &subsystem.subsystem, contacts, text)?;
         }
     }
     Ok(())
@@ -60,6 +62,29 @@ fn write_warnings(contacts: &ContactStatistics, text: &mut String) -> std::fmt::
             "  WARNING: {} times a pressed contact jammed (Painleve): its force was that of an impact without collision, of \
              which the schemes model the stop of the slip at most; lower the friction",
             contacts.jams
+        )?;
+    }
+    Ok(())
+}
+
+/// An impact inside a subsystem is a jump for the partner behind a rigid joint, which coupling by forces does not see.
+fn write_crossing(
+    scene: &Scene,
+    subsystem: &str,
+    contacts: &ContactStatistics,
+    text: &mut String,
+) -> std::fmt::Result {
+    if contacts.impacts == 0 {
+        return Ok(());
+    }
+    let is_own = |side: &Side| scene.subsystems[side.subsystem].name == subsystem;
+    let holds = |joint: &&Joint| is_own(&joint.a) || is_own(&joint.b);
+    for joint in scene.joints.iter().filter(holds) {
+        writeln!(
+            text,
+            "  WARNING: {} impacts inside {subsystem} while the joint {} holds it: impacts do not cross a joint, so that the partner's \
+             velocity is wrong behind each of them; put both into one subsystem, or couple them by a spring",
+            contacts.impacts, joint.name
         )?;
     }
     Ok(())
