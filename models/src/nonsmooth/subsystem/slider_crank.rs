@@ -46,7 +46,7 @@ impl System {
         let picture = Picture::new(
             mechanism.notch,
             mechanism.lengths,
-            parameters::magnification(parameters)?,
+            parameters::magnifications(parameters)?,
             guide,
         );
         let drawn = drawn(guide, parameters::elements(parameters)?);

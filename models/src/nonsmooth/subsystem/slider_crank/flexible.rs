@@ -66,7 +66,7 @@ impl Observer for Flexible {
                 let centre = [x, y, motion.q[2]];
                 let place = match self.drawn.get(marker - MOVING) {
                     Some(&Drawn::Node(node)) => {
-                        let [x, y] = self.system.node(motion.q, node, self.picture.magnification);
+                        let [x, y] = self.system.node(motion.q, node, self.picture.bending);
                         [x, y, motion.q[1]]
                     }
                     Some(&drawn) => self.picture.place(drawn, centre),

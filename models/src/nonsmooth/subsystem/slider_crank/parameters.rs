@@ -132,8 +132,13 @@ pub const KEYS: &[Key] = &[
         "magnification",
         "1",
         1.0,
-        "of clearance, tilt and deflection in the markers that are only drawn (slider, corner, upper, lower, rod), 1 \
-         or greater",
+        "of clearance and tilt in the markers that are only drawn (slider, corner, upper, lower), 1 or greater",
+    ),
+    number(
+        "bending_magnification",
+        "1",
+        1.0,
+        "of the deflection of the rod in the markers that are only drawn (rod), 1 or greater",
     ),
     number("theta1_0", "rad", 0.0, "angle of the crank at the start"),
     number("theta2_0", "rad", 0.0, "angle of the rod at the start"),
@@ -186,11 +191,10 @@ pub fn guide(parameters: &Parameters<'_>) -> Result<Guide, SetupError> {
     })
 }
 
-/// How much is drawn larger than it is.
-pub fn magnification(parameters: &Parameters<'_>) -> Result<f64, SetupError> {
-    parameters.number_in("magnification", "it must be 1 or greater", |value| {
-        value >= 1.0
-    })
+/// How much larger than they are clearance and deflection are drawn.
+pub fn magnifications(parameters: &Parameters<'_>) -> Result<[f64; 2], SetupError> {
+    let one = |name| parameters.number_in(name, "it must be 1 or greater", |value| value >= 1.0);
+    Ok([one("magnification")?, one("bending_magnification")?])
 }
 
 /// Elements of the rod; 0 if it is rigid.

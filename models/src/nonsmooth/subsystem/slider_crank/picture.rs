@@ -46,19 +46,27 @@ pub struct Picture {
     pub notch: Notch,
     /// Lengths of crank and rod (m).
     pub lengths: [f64; 2],
-    /// Of clearance, tilt and deflection.
+    /// Of clearance and tilt.
     pub magnification: f64,
+    /// Of the deflection of the rod.
+    pub bending: f64,
     /// Whether the walls are where the slider touches them: without clearance it slides on them.
     pub has_clearance: bool,
 }
 
 impl Picture {
     /// Of a mechanism.
-    pub fn new(notch: Notch, lengths: [f64; 2], magnification: f64, guide: Guide) -> Self {
+    pub fn new(
+        notch: Notch,
+        lengths: [f64; 2],
+        [magnification, bending]: [f64; 2],
+        guide: Guide,
+    ) -> Self {
         Self {
             notch,
             lengths,
             magnification,
+            bending,
             has_clearance: matches!(guide, Guide::Clearance(_)),
         }
     }

@@ -65,12 +65,19 @@ impl FlexibleSliderCrank {
             .collect()
     }
 
-    /// Place of a node, with its displacement drawn `magnification` times as large (m).
+    /// Place of a node, with its distance from the line between both ends drawn `magnification` times as large (m): the
+    /// ends stay where they are.
     pub fn node(&self, q: &[f64], node: usize, magnification: f64) -> [f64; 2] {
         let rod = &self.mechanism.rod;
-        let [along, across] = self.body.node(&q[ANGLES..], node);
-        let x = node as f64 * rod.length / rod.elements as f64;
-        self.place(q, [x + magnification * along, magnification * across])
+        let elastic = &q[ANGLES..];
+        let [along, across] = self.body.node(elastic, node);
+        let share = node as f64 / rod.elements as f64;
+        let on_line = share * self.body.end(elastic)[1];
+        let place = [
+            share * rod.length + along,
+            on_line + magnification * (across - on_line),
+        ];
+        self.place(q, place)
     }
 
     /// Where a point of the rod's frame is.
