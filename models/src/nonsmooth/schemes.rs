@@ -16,7 +16,7 @@ pub mod generalized_alpha;
 pub mod hets;
 pub mod moreau;
 
-use super::mechanics::{Mechanics, StepError};
+use super::mechanics::{Level, Mechanics, StepError};
 use super::state::{State, Step};
 
 pub use bathe::Bathe;
@@ -99,6 +99,9 @@ pub enum SchemeError {
     /// Cut-off of ED-alpha.
     #[error("alpha_ar = {0} is out of range: it must be greater than 0")]
     AlphaAr(f64),
+    /// Contacts on acceleration level.
+    #[error("only generalised-alpha holds contacts on acceleration level; take the velocity level")]
+    AccelerationLevel,
     /// ED-alpha without damping cannot hold contacts.
     #[error(
         "ed-alpha with rho_inf = 1 cannot hold contacts or constraints: their forces would oscillate without bound \
@@ -108,12 +111,31 @@ pub enum SchemeError {
     UndampedContacts,
 }
 
+impl SchemeError {
+    /// The option of a solver that is to be changed.
+    pub fn option(&self) -> &'static str {
+        match self {
+            Self::RhoInf(_) | Self::UndampedContacts => "rho_inf",
+            Self::Alpha { .. } => "alpha_m",
+            Self::AlphaAr(_) => "alpha_ar",
+            Self::AccelerationLevel => "acceleration_level",
+        }
+    }
+}
+
 impl SchemeKind {
     /// The scheme for a system.
     ///
     /// # Errors
     /// [`SchemeError`].
     pub fn build(self, mechanics: &Mechanics) -> Result<Box<dyn Scheme>, SchemeError> {
+        let has_levels = matches!(
+            self,
+            Self::GeneralizedAlpha { .. } | Self::NewmarkAlpha { .. }
+        );
+        if mechanics.settings.level == Level::Acceleration && !has_levels {
+            return Err(SchemeError::AccelerationLevel);
+        }
         Ok(match self {
             Self::GeneralizedAlpha { rho_inf } => {
                 Box::new(GeneralizedAlpha::optimal(rho_inf, mechanics)?)

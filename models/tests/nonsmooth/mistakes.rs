@@ -171,8 +171,8 @@ fn solvers_and_their_options() {
             &[("acceleration_level", Number(1.0))],
             &[
                 "solver.acceleration_level",
-                "only generalized-alpha",
-                "leave it out",
+                "only generalised-alpha",
+                "velocity level",
             ],
         ),
     ];

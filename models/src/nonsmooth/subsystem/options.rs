@@ -181,28 +181,17 @@ pub fn choose(setup: &Setup) -> Result<Choice, SetupError> {
     };
     Ok(Choice {
         scheme,
-        settings: settings(setup, scheme)?,
+        settings: settings(setup)?,
         step: setup.positive_option("step")?,
     })
 }
 
-fn settings(setup: &Setup, scheme: SchemeKind) -> Result<Settings, SetupError> {
+fn settings(setup: &Setup) -> Result<Settings, SetupError> {
     let flag = |name: &str| {
         let is_flag = |value: f64| value == 0.0 || value == 1.0;
         let value = setup.option_in(name, "it must be 0 or 1", is_flag)?;
         Ok::<bool, SetupError>(value == 1.0)
     };
-    let has_level = matches!(
-        scheme,
-        SchemeKind::GeneralizedAlpha { .. } | SchemeKind::NewmarkAlpha { .. }
-    );
-    if flag("acceleration_level")? && !has_level {
-        return Err(SetupError::Refused {
-            field: "solver.acceleration_level".to_owned(),
-            reason: "only generalized-alpha and newmark-alpha hold contacts on acceleration level; leave it \
-             out".to_owned(),
-        });
-    }
     let defaults = Settings::default();
     let mut contact = defaults.contact;
     if !flag("full_jacobian")? {

@@ -76,7 +76,7 @@ impl Run {
             start,
         );
         let integrator = integrator.map_err(|error| SetupError::Refused {
-            field: "solver".to_owned(),
+            field: format!("solver.{}", error.option()),
             reason: error.to_string(),
         })?;
         let contacts = integrator.mechanics.contacts().len();
