@@ -4,7 +4,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod ball;
+mod ball_model;
 mod bilateral;
+mod block_model;
+#[path = "../common/mod.rs"]
+mod common;
 mod contact_problems;
 mod defaults;
 mod figures;
@@ -27,3 +31,4 @@ mod slider;
 mod spectrum;
 mod stand;
 mod woodpecker;
+mod woodpecker_model;

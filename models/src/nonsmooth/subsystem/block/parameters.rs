@@ -134,13 +134,14 @@ pub fn law(parameters: &Parameters<'_>) -> Result<CornerLaw, SetupError> {
     })
 }
 
-/// Ends of the plane as it is drawn, along it (m); by default three diagonals of the block on both sides of its start.
+/// Ends of the plane as it is drawn, along it (m); by default one and a half diagonals of the block on both sides of
+/// its start.
 pub fn plane_ends(
     parameters: &Parameters<'_>,
     way: f64,
     [half_width, half_height]: [f64; 2],
 ) -> Result<[f64; 2], SetupError> {
-    let margin = 6.0 * half_width.hypot(half_height);
+    let margin = 3.0 * half_width.hypot(half_height);
     let end = |name: &str, default: f64| {
         if parameters.has(name) {
             parameters.number(name)
