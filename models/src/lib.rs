@@ -43,5 +43,8 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(pi_controller::PiController),
         Box::new(nonsmooth::SliderCrank),
         Box::new(nonsmooth::MassChain),
+        Box::new(nonsmooth::BouncingBall),
+        Box::new(nonsmooth::Block),
+        Box::new(nonsmooth::Woodpecker),
     ]
 }

@@ -30,5 +30,8 @@ mod subsystem;
 pub mod system;
 pub mod systems;
 
+pub use subsystem::block::Block;
+pub use subsystem::bouncing_ball::BouncingBall;
 pub use subsystem::masses::MassChain;
 pub use subsystem::slider_crank::SliderCrank;
+pub use subsystem::woodpecker::Woodpecker;

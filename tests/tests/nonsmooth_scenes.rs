@@ -9,6 +9,10 @@ use linchpin_tests::runs::{Trajectory, run};
 
 const ALONE: &str = include_str!("../../scenes/s2/slider-crank.toml");
 const CONTROLLED: &str = include_str!("../../scenes/s2/speed-control.toml");
+const BALL: &str = include_str!("../../scenes/s2/bouncing-ball.toml");
+const INCLINE: &str = include_str!("../../scenes/s2/incline.toml");
+const ROCKING: &str = include_str!("../../scenes/s2/rocking-block.toml");
+const WOODPECKER: &str = include_str!("../../scenes/s2/woodpecker.toml");
 
 /// A flexible rod with impacts and friction; the notch is reached within some hundred steps.
 const FLEXIBLE: [&str; 5] = [
@@ -24,11 +28,15 @@ fn scene(text: &str, overrides: &[&str]) -> Scene {
     parse(text, "scene.toml", &overrides).unwrap_or_else(|errors| panic!("{errors}"))
 }
 
-fn scenes() -> [(&'static str, Vec<&'static str>); 3] {
+fn scenes() -> [(&'static str, Vec<&'static str>); 7] {
     [
         (ALONE, vec!["scene.t_end=0.012"]),
         (ALONE, FLEXIBLE.to_vec()),
         (CONTROLLED, vec!["scene.t_end=0.05"]),
+        (BALL, vec!["scene.t_end=2.7", "coupling.macro_step=1e-2"]),
+        (INCLINE, vec!["scene.t_end=1.0"]),
+        (ROCKING, vec!["scene.t_end=0.7"]),
+        (WOODPECKER, vec!["scene.t_end=0.13"]),
     ]
 }
 
@@ -92,6 +100,46 @@ fn impacts_are_in_outputs_and_statistics() {
     assert!(contacts.residual < 1e-11 && contacts.problems > 100);
     assert!(contacts.penetration < 0.842 * 1e-5);
     assert_eq!((contacts.robust, contacts.ambiguous), (0, 0));
+}
+
+/// What the comments on top of the scenes tell.
+#[test]
+fn scenes_do_what_their_comments_tell() {
+    let first = |times: &[f64], is: &dyn Fn(usize) -> bool| {
+        let row = (0..times.len()).find(|&row| is(row));
+        times[row.unwrap()]
+    };
+    let ball = run(&scene(BALL, &[]), Place::InProcess);
+    let (time, force) = (ball.column("t"), ball.column("ball.normal_ball"));
+    let rest = first(&time, &|row| force[row] > 9.8);
+    assert!((rest - 2.5587).abs() < 3e-3, "{rest}");
+    assert!(force.last().is_some_and(|last| (last - 9.81).abs() < 1e-9));
+
+    let incline = run(&scene(INCLINE, &[]), Place::InProcess);
+    let (time, speed) = (incline.column("t"), incline.column("block.speed"));
+    let stop = first(&time, &|row| speed[row].abs() < 1e-9);
+    assert!((stop - 0.937).abs() <= 5.1e-3, "{stop}");
+    let end = *incline.column("block.way").last().unwrap();
+    assert!((end - 0.7026107).abs() < 1e-6, "{end}");
+
+    let rocking = run(&scene(ROCKING, &[]), Place::InProcess);
+    let rates = rocking.column("block.centre_rate");
+    let hit = rocking.column("block.impacts");
+    let struck = hit.iter().position(|&impacts| impacts > 0.0).unwrap();
+    let ratio = rates[struck] / rates[struck - 1];
+    // Between the rows it gains some speed.
+    assert!((ratio - 0.883).abs() < 0.02, "{ratio}");
+    assert!(rates.last().is_some_and(|last| last.abs() < 1e-12));
+
+    let toy = run(&scene(WOODPECKER, &[]), Place::InProcess);
+    let (time, beak) = (toy.column("t"), toy.column("toy.impulse_beak"));
+    let strokes: Vec<f64> = (0..time.len())
+        .filter(|&row| beak[row] > 0.0)
+        .map(|row| time[row])
+        .collect();
+    assert_eq!(strokes.len(), 5, "{strokes:?}");
+    let period = strokes[4] - strokes[3];
+    assert!((period - 0.146).abs() < 6e-4, "{period}");
 }
 
 /// A flywheel on the shaft of the mechanism, as a subsystem of its own behind a rigid joint, is the same as a crank of

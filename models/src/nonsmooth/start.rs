@@ -9,6 +9,10 @@ use super::system::Side;
 /// Relative velocities below this share of what moves the contact count as 0: the contact stays closed, or sticks.
 const STANDSTILL: f64 = 1e-9;
 
+/// Time that is none (s): what the accelerations without contacts make of a relative velocity within it is rounding as
+/// well. Where everything stands still there is nothing else to compare rounding with.
+const INSTANT: f64 = 1e-12;
+
 /// How accelerations at an instant take contacts into account.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Contacts {
@@ -42,10 +46,7 @@ fn act(mechanics: &mut Mechanics, closed: &mut [bool], state: &mut State) -> Res
     mechanics.direct(&state.q, closed);
     for (index, closed) in closed.iter_mut().enumerate() {
         let is_unilateral = mechanics.contacts()[index].side == Side::Unilateral;
-        if *closed
-            && is_unilateral
-            && relative_velocity(mechanics, mechanics.first_row(index), &state.v) > 0.0
-        {
+        if *closed && is_unilateral && motion(mechanics, mechanics.first_row(index), state) > 0.0 {
             *closed = false;
         }
     }
@@ -61,7 +62,7 @@ fn act(mechanics: &mut Mechanics, closed: &mut [bool], state: &mut State) -> Res
         let free =
             dot(mechanics.direction(row), &state.a) + mechanics.rates[mechanics.active_rows[row]];
         mechanics.problem.free.push(free);
-        slide(mechanics, row, &state.v);
+        slide(mechanics, row, state);
     }
     mechanics.add_delassus(1.0, None);
     mechanics.solve_problem(&mut state.forces)?;
@@ -71,7 +72,7 @@ fn act(mechanics: &mut Mechanics, closed: &mut [bool], state: &mut State) -> Res
 }
 
 /// A friction law whose contact slides becomes friction against that direction.
-fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
+fn slide(mechanics: &mut Mechanics, row: usize, state: &State) {
     let law = mechanics.problem.laws[row];
     let own = mechanics.active_rows[row];
     match law {
@@ -79,7 +80,7 @@ fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
             normal,
             coefficient,
         } => {
-            let speed = relative_velocity(mechanics, own, v);
+            let speed = motion(mechanics, own, state);
             if speed != 0.0 {
                 let factor = -coefficient * speed.signum();
                 mechanics.problem.laws[row] = Law::Sliding { normal, factor };
@@ -90,8 +91,8 @@ fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
             coefficient,
         } => {
             let speeds = [
-                relative_velocity(mechanics, own, v),
-                relative_velocity(mechanics, own + 1, v),
+                motion(mechanics, own, state),
+                motion(mechanics, own + 1, state),
             ];
             let size = speeds[0].hypot(speeds[1]);
             if size > 0.0 {
@@ -102,6 +103,19 @@ fn slide(mechanics: &mut Mechanics, row: usize, v: &[f64]) {
             }
         }
         Law::Equality | Law::Normal | Law::Second | Law::Sliding { .. } => {}
+    }
+}
+
+/// Relative velocity of a row whose accelerations are those without contacts; 0 if it is rounding.
+fn motion(mechanics: &Mechanics, row: usize, state: &State) -> f64 {
+    let velocity = relative_velocity(mechanics, row, &state.v);
+    let n = mechanics.order();
+    let direction = &mechanics.directions[row * n..][..n];
+    let size = dot(direction, direction) * dot(&state.a, &state.a);
+    if velocity.abs() <= INSTANT * size.sqrt() {
+        0.0
+    } else {
+        velocity
     }
 }
 

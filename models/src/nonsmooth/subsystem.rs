@@ -3,8 +3,11 @@
 //! * [`face`]: what a master sees of a system; [`observed`]: the outputs that a system has of its own;
 //! * [`options`]: schemes as solvers of a scene;
 //! * [`run`]: a system in motion: steps, outputs, snapshots, statistics;
-//! * [`keys`], [`model`]: parameters and descriptions; [`slider_crank`], [`masses`]: the models.
+//! * [`keys`], [`model`]: parameters and descriptions;
+//! * [`slider_crank`], [`masses`], [`bouncing_ball`], [`block`], [`woodpecker`]: the models.
 
+pub mod block;
+pub mod bouncing_ball;
 pub mod face;
 pub mod keys;
 pub mod masses;
@@ -13,3 +16,4 @@ pub mod observed;
 pub mod options;
 pub mod run;
 pub mod slider_crank;
+pub mod woodpecker;

@@ -55,7 +55,7 @@ impl Case {
 }
 
 /// At least one case of every model.
-pub const CASES: [Case; 16] = [
+pub const CASES: [Case; 20] = [
     Case {
         model: "oscillator",
         parameters: &[
@@ -232,6 +232,65 @@ pub const CASES: [Case; 16] = [
         composition: &[],
         is_minimal: false,
         load: 7.0,
+    },
+    Case {
+        model: "bouncing-ball",
+        parameters: &[
+            ("m", 0.37),
+            ("gravity", 9.79),
+            ("height0", 1.3e-3),
+            ("speed0", -0.11),
+            ("restitution", 0.63),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 0.7,
+    },
+    Case {
+        model: "block",
+        parameters: &[
+            ("half_width", 0.23),
+            ("half_height", 0.11),
+            ("m", 1.37),
+            ("inertia", 0.041),
+            ("gravity", 9.79),
+            ("slope", -0.31),
+            ("friction", 0.27),
+            ("restitution", 0.13),
+            ("way0", 0.4),
+            ("gap0", 7e-4),
+            ("tilt0", 0.003),
+            ("speed0", 0.9),
+            ("lift0", -0.2),
+            ("rate0", -0.4),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 1.3,
+    },
+    Case {
+        model: "block",
+        parameters: &[
+            ("half_width", 0.043),
+            ("half_height", 0.31),
+            ("m", 2.3),
+            ("friction", 0.7),
+            ("tilt0", 0.037),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 0.3,
+    },
+    Case {
+        model: "woodpecker",
+        parameters: &[
+            ("spring", 6.1e-3),
+            ("beak_restitution", 0.43),
+            ("friction", 0.31),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 1e-4,
     },
 ];
 

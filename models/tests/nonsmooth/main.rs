@@ -4,7 +4,11 @@
 #![allow(clippy::unwrap_used)]
 
 mod ball;
+mod ball_model;
 mod bilateral;
+mod block_model;
+#[path = "../common/mod.rs"]
+mod common;
 mod contact_problems;
 mod defaults;
 mod figures;
@@ -17,6 +21,7 @@ mod golden_rigid;
 mod hard;
 mod incline;
 mod invariants;
+mod markers;
 mod mistakes;
 mod model_problem;
 mod painleve;
@@ -27,3 +32,4 @@ mod slider;
 mod spectrum;
 mod stand;
 mod woodpecker;
+mod woodpecker_model;

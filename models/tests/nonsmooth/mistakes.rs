@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use linchpin_models::nonsmooth::{MassChain, SliderCrank};
+use linchpin_models::nonsmooth::{Block, BouncingBall, MassChain, SliderCrank, Woodpecker};
 use linchpin_proto::v1::{self, value::Kind};
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Model, Setup};
@@ -110,6 +110,57 @@ fn parameters_of_the_slider_crank() {
     ];
     for (given, parts) in cases {
         assert_says(&mistake(&SliderCrank, given, "bathe", &[]), parts);
+    }
+}
+
+#[test]
+fn parameters_of_ball_block_and_woodpecker() {
+    let cases: [(&dyn Model, &str, f64, &[&str]); 20] = [
+        (&BouncingBall, "m", 0.0, &["greater than 0"]),
+        (&BouncingBall, "height0", -0.1, &["0 or greater"]),
+        (&BouncingBall, "restitution", 1.1, &["0 to 1"]),
+        (&BouncingBall, "speed0", f64::INFINITY, &["finite"]),
+        (&BouncingBall, "radius", -1.0, &["0 or greater"]),
+        (&Block, "half_width", 0.0, &["greater than 0"]),
+        (&Block, "inertia", 0.0, &["greater than 0"]),
+        (&Block, "slope", 1.6, &["between -pi/2 and pi/2"]),
+        (&Block, "friction", -0.1, &["0 or greater"]),
+        (&Block, "tangential_restitution", -0.1, &["0 to 1"]),
+        (&Block, "gap0", -1e-9, &["0 or greater"]),
+        (&Block, "tilt0", f64::NAN, &["finite"]),
+        (
+            &Block,
+            "plane_to",
+            -1.0,
+            &["plane_from", "would end at -1 m"],
+        ),
+        (&Block, "half_hight", 1.0, &["unknown", "half_height"]),
+        (
+            &Woodpecker,
+            "sleeve_radius",
+            2e-3,
+            &["greater than pole_radius"],
+        ),
+        (&Woodpecker, "m_bird", -1.0, &["greater than 0"]),
+        (
+            &Woodpecker,
+            "phi_m0",
+            -0.2,
+            &["the lower edge", "5.600e-4 m inside the pole"],
+        ),
+        (
+            &Woodpecker,
+            "phi_m0",
+            0.2,
+            &["the upper edge", "inside the pole"],
+        ),
+        (&Woodpecker, "phi_s0", 0.2, &["the beak", "inside the pole"]),
+        (&Woodpecker, "pole_bottom", 0.1, &["below pole_top"]),
+    ];
+    for (model, name, value, parts) in cases {
+        let message = mistake(model, &[(name, Number(value))], "bathe", &[]);
+        assert_says(&message, &["parameters."]);
+        assert_says(&message, parts);
     }
 }
 

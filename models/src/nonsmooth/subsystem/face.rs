@@ -73,6 +73,17 @@ pub struct FaceMarker {
     pub has_rates: bool,
 }
 
+impl FaceMarker {
+    /// A marker for pictures.
+    pub fn drawn(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            load: Vec::new(),
+            has_rates: false,
+        }
+    }
+}
+
 /// All of a system.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Face {

@@ -199,3 +199,11 @@ impl<'a> Parameters<'a> {
         }
     }
 }
+
+/// A parameter that does not fit the others.
+pub fn refused(name: &str, reason: impl ToString) -> SetupError {
+    SetupError::Refused {
+        field: format!("parameters.{name}"),
+        reason: reason.to_string(),
+    }
+}

@@ -16,14 +16,14 @@ use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Model, Setup, Subsystem};
 
-use super::keys::Parameters;
+use super::keys::{Parameters, refused};
 use super::model::{describe, started};
 use crate::nonsmooth::system::{Contact, MechanicalSystem};
 use crate::nonsmooth::systems::flexible_slider_crank::FlexibleSliderCrank;
 use crate::nonsmooth::systems::rigid_slider_crank::RigidSliderCrank;
 use face::face;
 use flexible::Flexible;
-use parameters::{KEYS, START, mechanism, numbers, refused};
+use parameters::{KEYS, START, mechanism, numbers};
 use picture::{Picture, drawn};
 use rigid::Rigid;
 

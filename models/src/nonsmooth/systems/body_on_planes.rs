@@ -105,8 +105,8 @@ impl BodyOnPlanes {
     }
 }
 
-/// `R(theta) p`.
-fn turn(theta: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+/// `R(theta) p`: a vector of the body in inertial axes.
+pub fn turn(theta: f64, [x, y]: [f64; 2]) -> [f64; 2] {
     let (sin, cos) = theta.sin_cos();
     [cos * x - sin * y, sin * x + cos * y]
 }

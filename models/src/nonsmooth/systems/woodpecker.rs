@@ -2,7 +2,8 @@
 //! spring at a sleeve that slides down a pole, jams, and is freed by the stroke of the beak.
 //!
 //! Coordinates: height of the sleeve, angles of sleeve and bird, `q = (y, phi_M, phi_S)` (m, rad, rad), linear for
-//! small angles. Contacts: beak (1), lower edge (2) and upper edge (3) of the sleeve, all against the pole.
+//! small angles. Contacts: beak (1), lower edge (2) and upper edge (3) of the sleeve, all against the pole. Inputs, as
+//! many as there are: force upwards on the middle of the sleeve (N), moments on sleeve and bird (N m).
 //!
 //! ```text
 //!     | m_S + m_M   m_S l_M           m_S l_G         |        f_1 = -(m_S + m_M) g
@@ -121,6 +122,9 @@ impl MechanicalSystem for Woodpecker {
         let torque = self.toy.spring * (at.q[1] - at.q[2]);
         let [w1, w2, w3] = self.toy.weights();
         force.copy_from_slice(&[-w1, -torque - w2, torque - w3]);
+        for (force, input) in force.iter_mut().zip(at.inputs) {
+            *force += input;
+        }
     }
 
     fn tangents(

@@ -30,11 +30,6 @@ pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
         }
         Guide::Free => Vec::new(),
     };
-    let for_pictures = |name: String| FaceMarker {
-        name,
-        load: Vec::new(),
-        has_rates: false,
-    };
     let moving = |name: &str, load: &[&str]| FaceMarker {
         name: name.to_owned(),
         load: load.iter().map(|&name| name.to_owned()).collect(),
@@ -48,7 +43,7 @@ pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
     markers.extend(
         drawn(guide, elements)
             .into_iter()
-            .map(|(name, _)| for_pictures(name)),
+            .map(|(name, _)| FaceMarker::drawn(&name)),
     );
     Ok(Face {
         coordinates: vec![

@@ -2,7 +2,7 @@
 
 use linchpin_worker::setup::SetupError;
 
-use crate::nonsmooth::subsystem::keys::{Key, Parameters, absent, number, text};
+use crate::nonsmooth::subsystem::keys::{Key, Parameters, absent, number, refused, text};
 use crate::nonsmooth::systems::flexible_slider_crank::FlexibleMechanism;
 use crate::nonsmooth::systems::notch::{CornerLaw, Notch};
 use crate::nonsmooth::systems::rigid_slider_crank::{Guide, Mechanism};
@@ -291,13 +291,5 @@ fn rectangle(
         }
         [true, false] => Err(refused("width", "depth is missing: a section needs both")),
         [false, true] => Err(refused("depth", "width is missing: a section needs both")),
-    }
-}
-
-/// A parameter that does not fit the others.
-pub fn refused(name: &str, reason: impl ToString) -> SetupError {
-    SetupError::Refused {
-        field: format!("parameters.{name}"),
-        reason: reason.to_string(),
     }
 }
