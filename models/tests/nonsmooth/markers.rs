@@ -97,17 +97,18 @@ fn velocities_and_accelerations_are_rates_of_change() {
                 );
                 moving.advance(DISTANCE);
             }
+            let [before, here, after] = &points[..] else {
+                panic!("three points")
+            };
             for level in [0, 1] {
-                for component in 0..3 {
-                    let value =
-                        |point: usize, level: usize| -> f64 { points[point][level][component] };
-                    let rate = (value(2, level) - value(0, level)) / (2.0 * DISTANCE);
-                    let own = value(1, level + 1);
+                let rates = before[level].iter().zip(&after[level]);
+                let rates = rates.map(|(before, after)| (after - before) / (2.0 * DISTANCE));
+                for (rate, own) in rates.zip(&here[level + 1]) {
                     // Vibrations of the rod have periods of some 1e-4 s.
                     let allowed = 5e-4 * (1.0 + own.abs());
                     assert!(
                         (rate - own).abs() < allowed,
-                        "{elements} {} {level} {component}: {rate} {own}",
+                        "{elements} {} {level}: {rate} {own}",
                         marker.name
                     );
                 }
