@@ -26,6 +26,7 @@ pub mod results;
 pub mod scene;
 pub mod signal;
 pub mod time;
+pub mod workers;
 
 pub use cosimulation::CoSimulation;
 pub use error::RunError;

@@ -2,8 +2,8 @@
 
 use nalgebra::UnitQuaternion;
 
+use super::closed;
 use super::signal_loop::SignalBlock;
-use super::{Parts, closed};
 use crate::coupling::columns::Column;
 use crate::coupling::layout::{Coupled, Layout, What};
 use crate::coupling::solve::{LinearSolver, SingularColumn};
@@ -13,6 +13,7 @@ use crate::error::RunError;
 use crate::joint::Level;
 use crate::scene::{Connection, Scene};
 use crate::signal::attitude::unit_quaternion;
+use crate::workers::Parts;
 
 /// Connected signals that change by less than this share are settled.
 const SETTLED: f64 = 1e-12;

@@ -2,11 +2,11 @@
 
 use super::solve::{LinearSolver, SingularColumn};
 use super::system::System;
-use crate::cosimulation::Parts;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::scene::{Formula, Index, Method};
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// The equation that the corrected multipliers solve, linearised about the prediction.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -24,12 +24,12 @@ use super::layout::{Layout, Over, Row};
 use super::system::motion_of;
 use super::unbalanced::{Loads, Unbalanced};
 use super::uncorrected::{Uncorrected, add_exchanged_errors, displacement};
-use crate::cosimulation::{Parts, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::scene::{Order, Spring};
 use crate::signal::{Curve, History, Lagrange, Variables};
 use crate::time::MacroStep;
+use crate::workers::{Parts, exchange};
 
 /// State of a penalty coupling between two macro steps.
 pub struct Penalty {

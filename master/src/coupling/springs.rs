@@ -18,12 +18,12 @@ use super::layout::input::Source;
 use super::system::motion_of;
 use super::unbalanced::{Loads, Unbalanced};
 use super::uncorrected::{Uncorrected, displacement};
-use crate::cosimulation::{Parts, exchange};
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
 use crate::scene::{Order, Spring};
 use crate::signal::{Curve, History, Variables};
 use crate::time::MacroStep;
+use crate::workers::{Parts, exchange};
 
 use linchpin_proto::v1::Signal;
 

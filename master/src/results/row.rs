@@ -1,10 +1,10 @@
 //! The values at one macro point.
 
-use crate::cosimulation::Parts;
-use crate::coupling::automatic_degrees::StepDegrees;
 use crate::coupling::system::motion_of;
 use crate::joint::Level;
+use crate::results::StepDegrees;
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// The column of variable macro steps.
 const STEP: &str = "step";

@@ -5,12 +5,11 @@ use std::time::Duration;
 use linchpin_proto::v1;
 use serde::Serialize;
 
-use super::{Integrations, Row, Verdict};
-use crate::cosimulation::{FreeVelocity, Outcome, Passes, Subsystem};
-use crate::coupling::automatic_degrees::StepDegrees;
+use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
 use crate::coupling::layout::Layout;
 use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
+use crate::workers::Subsystem;
 
 /// What a run cost and how well its joints held.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]

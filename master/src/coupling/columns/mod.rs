@@ -16,10 +16,10 @@ use std::ops::Range;
 
 use super::layout::{DrivenInput, Layout, Over};
 use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Parts, Subsystem};
 use crate::joint::Level;
 use crate::scene::Increment;
 use crate::signal::{Curves, SharePolynomial};
+use crate::workers::{Ahead, Parts, Subsystem};
 
 pub use column::Column;
 use kept::Kept;

@@ -44,12 +44,12 @@ use super::shortfall::Shortfall;
 use super::solve::{LinearSolver, SingularColumn};
 use super::system::{Point, System};
 use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::results::Verdict;
 use crate::signal::{Curves, History};
 use crate::time::MacroStep;
+use crate::workers::{Ahead, Parts};
 
 use arcs::{Arcs, unknowns_of};
 use held::Held;

@@ -5,13 +5,14 @@
 //! at the same macro point again.
 
 use super::pieces::{advance_in_pieces, is_refusal};
-use super::subsystem::{Answered, Subsystem};
+use super::subsystem::Subsystem;
+use super::subsystem::answer::Answered;
 use crate::error::RunError;
 use crate::time::MacroStep;
 
 /// A look-ahead of all subsystems, without an advance. All answers are taken, so that the next request may follow whatever came; a
 /// failure that a shorter step does not cure is told before others.
-pub(super) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
+pub(crate) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
     for subsystem in &mut *subsystems {
         subsystem.post(step)?;
     }
@@ -29,7 +30,7 @@ pub(super) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), 
 
 /// The advance of all subsystems over `step`, and the look-ahead over the following one: gives what came between, if that was the
 /// look-ahead alone.
-pub(super) fn advance(
+pub(crate) fn advance(
     subsystems: &mut [Subsystem],
     step: MacroStep,
 ) -> Result<Option<RunError>, RunError> {

@@ -1,6 +1,6 @@
 //! One subsystem as the master sees it: a connection, the last messages, and outputs at the present macro point.
 
-mod answer;
+pub(super) mod answer;
 mod request;
 #[cfg(test)]
 mod tests;
@@ -17,8 +17,6 @@ use crate::error::RunError;
 use crate::results::{Cause, Integrations};
 use crate::scene::Increment;
 use crate::time::MacroStep;
-
-pub(crate) use answer::Answered;
 
 /// How far a look-ahead goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -208,7 +206,7 @@ impl Subsystem {
         Ok(())
     }
 
-    pub(super) fn failed(&self, source: CallError, step: MacroStep) -> RunError {
+    pub(crate) fn failed(&self, source: CallError, step: MacroStep) -> RunError {
         let last_words = match source {
             CallError::Lost { .. } | CallError::Deadline { .. } => self.connection.last_words(),
             _ => LastWords::default(),
@@ -231,15 +229,4 @@ impl Drop for Subsystem {
         // A worker that is gone needs no end of its instance.
         let _ = self.connection.contract().terminate(&request);
     }
-}
-
-/// Sends every subsystem its request, then takes all answers: the workers compute at the same time.
-pub(crate) fn exchange(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
-    for subsystem in &mut *subsystems {
-        subsystem.post(step)?;
-    }
-    for subsystem in subsystems {
-        subsystem.collect(step)?;
-    }
-    Ok(())
 }

@@ -1,6 +1,5 @@
 //! Results at fixed times, whatever the macro steps are.
 
-use super::Parts;
 use crate::time::MacroStep;
 
 /// A sample this close to a macro point, as a share of the interval, is that point.
@@ -41,18 +40,18 @@ impl Samples {
     }
 
     /// Offsets from the start of the step.
-    pub(super) fn offsets(&self) -> &[f64] {
+    pub(crate) fn offsets(&self) -> &[f64] {
         &self.offsets
     }
 
     /// Number and time in s of a sample inside the step.
-    pub(super) fn inside(&self, place: usize) -> (u64, f64) {
+    pub(crate) fn inside(&self, place: usize) -> (u64, f64) {
         let number = self.first + place as u64;
         (number, time(self.t_start, self.interval, number))
     }
 
     /// Number of the sample at `t`, if one is there.
-    pub(super) fn at(&self, t: f64) -> Option<u64> {
+    pub(crate) fn at(&self, t: f64) -> Option<u64> {
         let number = ((t - self.t_start) / self.interval).round();
         let number = number as u64;
         let distance = (time(self.t_start, self.interval, number) - t).abs();
@@ -67,22 +66,6 @@ impl Samples {
 
 fn time(t_start: f64, interval: f64, number: u64) -> f64 {
     t_start + number as f64 * interval
-}
-
-impl Parts {
-    /// Lets every advance that was prepared over `step` bring the samples inside it.
-    pub(super) fn request_samples(&mut self, step: MacroStep) {
-        let Some(samples) = &mut self.samples else {
-            return;
-        };
-        samples.find(step);
-        for subsystem in &mut self.subsystems {
-            if let Some(advance) = &mut subsystem.request.advance {
-                advance.samples.clear();
-                advance.samples.extend_from_slice(samples.offsets());
-            }
-        }
-    }
 }
 
 #[cfg(test)]
