@@ -21,10 +21,12 @@ pub mod coupling;
 pub mod error;
 pub mod interrupt;
 pub mod joint;
+pub mod layout;
 pub mod probe;
 pub mod results;
 pub mod scene;
 pub mod signal;
+pub mod system;
 pub mod time;
 pub mod workers;
 

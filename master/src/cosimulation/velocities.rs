@@ -4,12 +4,12 @@ use linchpin_proto::v1::{self, value::Kind};
 use nalgebra::{DMatrix, DVector};
 
 use super::initial::{InitialState, evaluate_all};
-use crate::coupling::layout::{Coupled, Layout};
-use crate::coupling::system::motion_of;
 use crate::error::RunError;
 use crate::joint::Level;
+use crate::layout::{Coupled, Layout};
 use crate::results::FreeVelocity;
 use crate::scene::Scene;
+use crate::system::motion_of;
 use crate::workers::Parts;
 
 /// Change of a parameter by which its influence is found; velocities enter `g'` linearly.

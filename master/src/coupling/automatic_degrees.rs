@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::degree_choice::{DegreeChoice, MOST_GROWTH, Prospects, Purpose};
-use super::layout::Layout;
+use crate::layout::Layout;
 use crate::results::StepDegrees;
 use crate::scene::{Method, highest_stable_degree};
 use crate::signal::History;

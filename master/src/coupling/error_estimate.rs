@@ -1,6 +1,6 @@
 //! How large the error of a macro step is, compared with what is allowed.
 
-use super::layout::{Layout, What};
+use crate::layout::{Layout, What};
 use crate::scene::StepControl;
 use crate::workers::Parts;
 

@@ -2,8 +2,8 @@
 
 use super::columns::Columns;
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::system::{System, motion_of};
 use crate::joint::Level;
+use crate::system::{System, motion_of};
 use crate::time::MacroStep;
 use crate::workers::Parts;
 

@@ -9,12 +9,12 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::columns::Column;
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::{BoundEnd, DrivenInput, Layout};
 use crate::error::RunError;
 use crate::joint::MarkerChange;
+use crate::layout::{BoundEnd, DrivenInput, Layout};
 use crate::scene::Increment;
+use crate::system::Column;
 use crate::time::MacroStep;
 use crate::workers::{Ahead, Parts, exchange};
 

@@ -3,8 +3,8 @@
 use std::time::Duration;
 
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::Layout;
 use crate::error::RunError;
+use crate::layout::Layout;
 use crate::scene::Spring;
 use crate::signal::History;
 use crate::time::MacroStep;

@@ -1,8 +1,8 @@
 //! The values at one macro point.
 
-use crate::coupling::system::motion_of;
 use crate::joint::Level;
 use crate::results::StepDegrees;
+use crate::system::motion_of;
 use crate::time::MacroStep;
 use crate::workers::Parts;
 

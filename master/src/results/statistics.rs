@@ -6,7 +6,7 @@ use linchpin_proto::v1;
 use serde::Serialize;
 
 use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
-use crate::coupling::layout::Layout;
+use crate::layout::Layout;
 use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
 use crate::workers::Subsystem;

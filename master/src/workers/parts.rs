@@ -2,7 +2,7 @@
 
 use super::samples::Samples;
 use super::subsystem::{Ahead, Subsystem};
-use crate::coupling::layout::Layout;
+use crate::layout::Layout;
 use crate::results::Cause;
 use crate::time::MacroStep;
 

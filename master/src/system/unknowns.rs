@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::layout::{DrivenInput, Layout, Source};
+use crate::layout::{DrivenInput, Layout, Source};
 
 /// Which unknowns there are, and how the inputs are raised to learn the response to them.
 ///

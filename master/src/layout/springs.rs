@@ -4,7 +4,8 @@ use linchpin_proto::joint_load::End;
 use linchpin_proto::v1;
 
 use super::bind::Binder;
-use super::{Coupled, Lack, Layout, MarkedJoint, MarkerLacks};
+use super::bound::Layout;
+use super::coupled::{Coupled, Lack, MarkedJoint, MarkerLacks};
 use crate::joint::Level;
 
 impl Layout {

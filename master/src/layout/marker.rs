@@ -154,7 +154,7 @@ impl BoundEnd {
 }
 
 /// The first three of some values; missing ones are 0.
-pub(super) fn vector(places: &[usize], values: &[f64]) -> Vector3<f64> {
+pub(crate) fn vector(places: &[usize], values: &[f64]) -> Vector3<f64> {
     let mut vector = Vector3::zeros();
     for (component, &place) in vector.iter_mut().zip(places) {
         *component = values[place];

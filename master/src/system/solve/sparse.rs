@@ -10,8 +10,8 @@ use faer::sparse::linalg::{LuError, colamd};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Par};
 
-use super::{SingularColumn, is_rounding};
-use crate::coupling::pattern::Pattern;
+use super::pivot::{SingularColumn, is_rounding};
+use crate::system::pattern::Pattern;
 
 /// LU decomposition column by column (Gilbert and Peierls). The order of the columns follows from the pattern alone
 /// (COLAMD); the pivot rows follow from the numbers. The factors keep their memory, which grows only when the pivots demand more

@@ -1,16 +1,4 @@
-//! Which outputs of which subsystem the joints read, which are exchanged, and which inputs are driven.
-//!
-//! * [`marker`]: the motion of a marker in its subsystem's outputs;
-//! * [`exchanged`]: outputs that are inputs of other subsystems;
-//! * [`input`]: driven inputs and how they follow from the coupling variables.
-
-mod bind;
-pub mod exchanged;
-pub mod frames;
-pub mod input;
-mod loads;
-pub mod marker;
-mod springs;
+//! Joints and connections tied to places in the subsystems' inputs and outputs.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -18,12 +6,9 @@ use std::sync::Arc;
 use linchpin_proto::v1;
 use nalgebra::UnitQuaternion;
 
-pub use exchanged::{Exchanged, What};
-pub use frames::Frame;
-pub use input::{DrivenInput, Over, Source};
-pub use marker::BoundEnd;
-pub use springs::springs_at;
-
+use super::exchanged::{Exchanged, What};
+use super::input::DrivenInput;
+use super::marker::BoundEnd;
 use crate::joint::{Joint, Level};
 use crate::signal::Variables;
 
@@ -47,7 +32,7 @@ pub struct Layout {
     pub outputs: Vec<Vec<String>>,
     /// Highest level of the conditions.
     pub level: Level,
-    ranges: Vec<Range<usize>>,
+    pub(super) ranges: Vec<Range<usize>>,
 }
 
 /// One scalar condition of a joint.
@@ -69,70 +54,17 @@ pub struct BoundJoint {
     pub ends: [BoundEnd; 2],
 }
 
-/// A joint of the scene with the markers that it holds, found in the models' descriptions.
-#[derive(Clone)]
-pub struct MarkedJoint {
-    /// Name in the scene.
-    pub name: String,
-    /// Its conditions.
-    pub joint: Arc<Joint>,
-    /// Subsystem and marker of ends a and b.
-    pub ends: [(usize, v1::Marker); 2],
-}
-
-/// A signal connection of the scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MarkedConnection {
-    /// Subsystem and output.
-    pub from: (usize, String),
-    /// Subsystem and input.
-    pub to: (usize, String),
-}
-
-/// How a subsystem takes loads whose direction turns with the bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LoadForm {
-    /// It evaluates the joint's law itself.
-    Joint,
-    /// It takes force and moment as polynomials of this degree.
-    Wrench {
-        /// Degree.
-        degree: usize,
-    },
-}
-
-/// What a scene couples.
-pub struct Coupled<'a> {
-    /// Names of the subsystems.
-    pub subsystems: Vec<&'a str>,
-    /// How each takes loads.
-    pub forms: Vec<LoadForm>,
-    /// Its joints.
-    pub joints: &'a [MarkedJoint],
-    /// Its signal connections.
-    pub connections: &'a [MarkedConnection],
-}
-
-/// A marker cannot take part in a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct MarkerLacks {
-    /// Number of the joint.
-    pub joint: usize,
-    /// 0 for end a, 1 for end b.
-    pub end: usize,
-    /// What is missing.
-    pub what: Lack,
-}
-
-/// What a marker may lack.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Lack {
-    /// An output on this level.
-    Output(Level),
-    /// An input for the load.
-    Load,
-    /// A spring-damper to a partner.
-    Spring,
+/// A marker whose attitude the coupling outputs tell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    /// Place of the subsystem in the scene.
+    pub subsystem: usize,
+    /// Places of the angle, or of the quaternion `w, x, y, z`, in the coupling outputs.
+    pub attitude: Vec<usize>,
+    /// Places of vectors of the marker's motion in the coupling outputs, two in the plane and three in space.
+    pub vectors: Vec<Vec<usize>>,
+    /// Numbers of inputs that are vectors: force and moment on the marker, and what a joint load there reads of the partner.
+    pub inputs: Vec<Vec<usize>>,
 }
 
 impl Layout {

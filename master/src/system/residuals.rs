@@ -1,8 +1,10 @@
 //! The conditions of the joints and of the exchanged variables.
 
-use super::{Point, System, motion_of};
-use crate::coupling::layout::Layout;
+use super::equations::System;
+use super::motion::motion_of;
+use super::point::Point;
 use crate::joint::{Level, ROUNDING};
+use crate::layout::Layout;
 
 impl System {
     /// Only the conditions; the Jacobians stay as they are.

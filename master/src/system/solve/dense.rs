@@ -5,8 +5,8 @@ use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{Mat, Par};
 
-use super::{SingularColumn, is_rounding};
-use crate::coupling::pattern::Pattern;
+use super::pivot::{SingularColumn, is_rounding};
+use crate::system::pattern::Pattern;
 
 /// LU decomposition in place.
 pub struct Dense {

@@ -3,22 +3,11 @@
 use linchpin_proto::v1::{Marker, MarkerKind};
 
 use super::bind::place_of;
+use super::bound::{Frame, Layout};
+use super::coupled::Coupled;
+use super::input::DrivenInput;
 use super::marker::{Parts, outputs_of};
-use super::{Coupled, Layout};
 use crate::joint::Level;
-
-/// A marker whose attitude the coupling outputs tell.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Frame {
-    /// Place of the subsystem in the scene.
-    pub subsystem: usize,
-    /// Places of the angle, or of the quaternion `w, x, y, z`, in the coupling outputs.
-    pub attitude: Vec<usize>,
-    /// Places of vectors of the marker's motion in the coupling outputs, two in the plane and three in space.
-    pub vectors: Vec<Vec<usize>>,
-    /// Numbers of inputs that are vectors: force and moment on the marker, and what a joint load there reads of the partner.
-    pub inputs: Vec<Vec<usize>>,
-}
 
 /// A joint drives only a part of a force or moment, so the responses in other directions are not known.
 struct Partial;
@@ -95,7 +84,7 @@ impl Layout {
             MarkerKind::Scalar | MarkerKind::Unspecified => &[],
         };
         let range = self.input_range(subsystem);
-        let find = |is_wanted: &dyn Fn(&super::DrivenInput) -> bool| {
+        let find = |is_wanted: &dyn Fn(&DrivenInput) -> bool| {
             let found = range
                 .clone()
                 .find(|&number| is_wanted(&self.inputs[number]));

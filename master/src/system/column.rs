@@ -1,6 +1,6 @@
 //! The response to one raised input, and how much it is raised.
 
-use crate::coupling::layout::{DrivenInput, Layout};
+use crate::layout::{DrivenInput, Layout};
 use crate::scene::Increment;
 
 /// Relative increment when it is chosen automatically. Loads enter nearly linearly, so a large one costs no accuracy

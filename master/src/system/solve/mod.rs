@@ -1,11 +1,13 @@
 //! The linear solver of the coupling system: dense when it is small or full, sparse otherwise.
 
 mod dense;
+mod pivot;
 mod sparse;
 #[cfg(test)]
 mod tests;
 
 use dense::Dense;
+pub use pivot::SingularColumn;
 use sparse::Sparse;
 
 use super::pattern::Pattern;
@@ -20,15 +22,6 @@ enum Elimination {
     Dense(Dense),
     Sparse(Box<Sparse>),
 }
-
-/// No unique solution: elimination found no pivot in this column, because the matrix has an empty column or this one depends
-/// on those eliminated before it. The dense elimination goes from the first column to the last, the sparse one in an order
-/// that keeps its factors sparse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SingularColumn(pub usize);
-
-/// A pivot below this share of the largest entry of its column is rounding.
-const PIVOT_ROUNDING: f64 = 1e-14;
 
 /// One multiplication of the sparse elimination takes as long as so many of the dense one: measured with full factors, 5 at
 /// 30 variables and 25 at 500 (bench `chain`).
@@ -96,12 +89,4 @@ impl LinearSolver {
             Elimination::Sparse(sparse) => sparse.substitute(rhs),
         }
     }
-}
-
-/// Whether a pivot is zero up to rounding, or not a number; `column` are the entries of its column in the matrix.
-fn is_rounding(pivot: f64, column: &[f64]) -> bool {
-    let largest = column
-        .iter()
-        .fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    pivot.is_nan() || pivot.abs() <= PIVOT_ROUNDING * largest
 }

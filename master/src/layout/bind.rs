@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use linchpin_proto::joint_load::{End, Reads};
 
+use super::bound::{BoundJoint, Layout, Row};
+use super::coupled::{Coupled, Lack, MarkedJoint, MarkerLacks};
 use super::exchanged::{Exchanged, PoseVariables, Rates, Turning, What};
 use super::input::{DrivenInput, Source};
-use super::loads::NamedLoad;
 use super::marker::{BoundEnd, Parts, outputs_of};
-use super::{BoundJoint, Coupled, Lack, Layout, MarkedJoint, MarkerLacks, Row};
+use super::named_load::NamedLoad;
 use crate::joint::Level;
 
 /// A layout in the making.

@@ -1,12 +1,14 @@
 //! The loads of joints on their markers: of fixed direction, evaluated by the subsystem, or sent as force and moment.
 
 use linchpin_proto::joint_load::{End, Pose, Reads};
-use linchpin_proto::v1::{self, MarkerKind};
+use linchpin_proto::v1::MarkerKind;
 
 use super::bind::Binder;
+use super::bound::{Row, column_name};
+use super::coupled::{Lack, LoadForm, MarkerLacks};
 use super::exchanged::Turning;
-use super::input::{DrivenInput, Source, TurningLoad};
-use super::{Lack, LoadForm, MarkerLacks, Row, column_name};
+use super::input::{Source, TurningLoad};
+use super::named_load::NamedLoad;
 
 /// Components of force and moment that a marker of a kind takes, in the order of its load inputs: 0 to 2 the force, 3 to 5
 /// the moment.
@@ -16,16 +18,6 @@ fn load_components(kind: MarkerKind) -> &'static [usize] {
         MarkerKind::Spatial => &[0, 1, 2, 3, 4, 5],
         MarkerKind::Scalar | MarkerKind::Unspecified => &[0],
     }
-}
-
-/// A joint load whose signals are known by name.
-pub(super) struct NamedLoad {
-    pub(super) subsystem: usize,
-    message: v1::JointLoad,
-    multiplier: String,
-    position: Vec<String>,
-    rotation: Vec<String>,
-    attitude: Vec<String>,
 }
 
 impl Binder<'_> {
@@ -157,22 +149,5 @@ impl Binder<'_> {
             input.source.add_turning(component, degree, turning);
         }
         Ok(())
-    }
-}
-
-impl NamedLoad {
-    pub(super) fn message(&self, inputs: &[DrivenInput]) -> v1::JointLoad {
-        let place = |name: &String| {
-            let mut own = inputs.iter().filter(|input| input.is_joint_input);
-            own.find(|input| &input.name == name)
-                .map_or(0, |input| input.place as u32)
-        };
-        v1::JointLoad {
-            multiplier: place(&self.multiplier),
-            partner_position: self.position.iter().map(place).collect(),
-            partner_rotation: self.rotation.iter().map(place).collect(),
-            partner_attitude: self.attitude.iter().map(place).collect(),
-            ..self.message.clone()
-        }
     }
 }

@@ -1,71 +1,33 @@
 //! Coupling conditions and Jacobian of the whole scene.
 
-mod jacobians;
-mod residuals;
-
 use std::ops::Range;
 
-use nalgebra::UnitQuaternion;
-
-use super::columns::Column;
-use super::layout::Layout;
+use super::column::Column;
+use super::entries::visit_entries;
 use super::pattern::Pattern;
+use super::point::Point;
 use super::unknowns::Unknowns;
 use crate::joint::{Level, Motion};
-
-use jacobians::visit_entries;
+use crate::layout::Layout;
 
 /// `g` and its derivatives `G` with respect to the unknowns on every level. The rows are the conditions of the joints, then
 /// those of the exchanged variables: `w - y = 0`, which is the same on every level; but for variables that have their rate
 /// at the end of the step as a second unknown `w - y = 0`, `H (w' - y') = 0` and, only to tell `y''`, `-H^2 y''`. Memory is
 /// kept from step to step.
 pub struct System {
-    level: Level,
-    rows: usize,
-    unknowns: Unknowns,
-    variables: Vec<Vec<usize>>,
-    pattern: Pattern,
-    residuals: [Vec<f64>; 3],
-    jacobians: [Vec<f64>; 3],
-    combined_residual: Vec<f64>,
-    combined_jacobian: Vec<f64>,
-    rhs: Vec<f64>,
-    motions: Vec<Motion>,
-    gradients: Vec<f64>,
-    gradient_starts: Vec<usize>,
-}
-
-/// The values about which the system is linearised.
-#[derive(Clone, Copy)]
-pub struct Point<'a> {
-    /// Coupling variables at the end of the step.
-    pub w: &'a [f64],
-    /// Coupling variables at the shares of the step at which loads are raised, without the last one, which is the end.
-    pub inner: &'a [Vec<f64>],
-    /// `H w'` at the end of the step, looked at for variables that have it as an unknown.
-    pub rates: &'a [f64],
-    /// `H`
-    pub step: f64,
-    /// Attitudes to which rotation vectors are relative.
-    pub attitudes: &'a [UnitQuaternion<f64>],
-}
-
-impl<'a> Point<'a> {
-    /// A point where the only unknowns are the values at the end of the step.
-    pub fn ends(w: &'a [f64], attitudes: &'a [UnitQuaternion<f64>]) -> Self {
-        Self {
-            w,
-            inner: &[],
-            rates: &[],
-            step: 0.0,
-            attitudes,
-        }
-    }
-
-    /// Coupling variables at share number `share`.
-    fn at(&self, share: usize) -> &'a [f64] {
-        self.inner.get(share).map_or(self.w, Vec::as_slice)
-    }
+    pub(super) level: Level,
+    pub(super) rows: usize,
+    pub(super) unknowns: Unknowns,
+    pub(super) variables: Vec<Vec<usize>>,
+    pub(super) pattern: Pattern,
+    pub(super) residuals: [Vec<f64>; 3],
+    pub(super) jacobians: [Vec<f64>; 3],
+    pub(super) combined_residual: Vec<f64>,
+    pub(super) combined_jacobian: Vec<f64>,
+    pub(super) rhs: Vec<f64>,
+    pub(super) motions: Vec<Motion>,
+    pub(super) gradients: Vec<f64>,
+    pub(super) gradient_starts: Vec<usize>,
 }
 
 impl System {
@@ -217,16 +179,4 @@ fn negate(values: &[f64], rhs: &mut [f64]) {
     for (rhs, value) in rhs.iter_mut().zip(values) {
         *rhs = -value;
     }
-}
-
-/// What joint number `joint` reads of the motion of its two markers; levels that the layout does not have stay 0 and are
-/// not read.
-pub fn motion_of<'a>(
-    layout: &Layout,
-    joint: usize,
-    outputs: impl Fn(usize) -> &'a [f64],
-) -> Motion {
-    let ends = &layout.joints[joint].ends;
-    ends.each_ref()
-        .map(|end| end.motion(outputs(end.subsystem)))
 }
