@@ -64,7 +64,9 @@ impl CoSimulation {
         self.last_length = step.length;
         let degrees = self.scheme.degrees();
         let multipliers = self.scheme.multipliers();
-        self.row.read(step, degrees, &self.parts, multipliers);
+        let outputs = |subsystem: usize| &self.parts.subsystems[subsystem].outputs[..];
+        self.row
+            .read(step, degrees, &self.parts.layout, outputs, multipliers);
         if let Some(step_size) = &mut self.step_size {
             step_size.observe(&self.parts);
         }
@@ -128,8 +130,9 @@ impl CoSimulation {
             Scheme::Uncorrected(method) => method.multipliers_at(&self.parts, place, multipliers),
         }
         let degrees = self.scheme.degrees();
-        self.sample_row
-            .read_sample(sample, degrees, place, &self.parts, &self.multipliers);
+        let (parts, row) = (&self.parts, &mut self.sample_row);
+        let outputs = |subsystem: usize| parts.subsystems[subsystem].sample(place);
+        row.read(sample, degrees, &parts.layout, outputs, &self.multipliers);
         Some((number, &self.sample_row))
     }
 
@@ -154,7 +157,8 @@ impl CoSimulation {
         let mut statistics = self.statistics.clone();
         statistics.steps = self.step_size.as_ref().and_then(StepSize::statistics);
         for (number, subsystem) in self.parts.subsystems.iter().enumerate() {
-            statistics.add_subsystem(subsystem, self.scheme.unresolved(number));
+            let unresolved = self.scheme.unresolved(number);
+            statistics.add_subsystem(subsystem.statistics(unresolved));
         }
         statistics
     }

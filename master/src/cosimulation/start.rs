@@ -92,9 +92,15 @@ impl CoSimulation {
         let steps = (&plan, step_size.as_mut());
         let scheme = begin(scene, options, initial, highest, &mut parts, steps)?;
         let degrees = scheme.degrees();
-        let mut row = Row::new(&parts, scene.coupling.step_control.is_some(), degrees);
+        let shows_step = scene.coupling.step_control.is_some();
+        let named = parts
+            .subsystems
+            .iter()
+            .map(|own| (own.name(), &own.output_names[..]));
+        let mut row = Row::new(&parts.layout, named, shows_step, degrees);
         let start = at_start(scene.t_start);
-        row.read(start, degrees, &parts, scheme.multipliers());
+        let outputs = |subsystem: usize| &parts.subsystems[subsystem].outputs[..];
+        row.read(start, degrees, &parts.layout, outputs, scheme.multipliers());
         panels::check(scene, &row)?;
         let mechanism = options
             .record_markers

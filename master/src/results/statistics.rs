@@ -9,7 +9,6 @@ use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdi
 use crate::layout::Layout;
 use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
-use crate::workers::Subsystem;
 
 /// What a run cost and how well its joints held.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -278,19 +277,7 @@ impl Statistics {
         }
     }
 
-    pub(crate) fn add_subsystem(&mut self, subsystem: &Subsystem, unresolved: Option<f64>) {
-        let work = &subsystem.work;
-        let own = SubsystemStatistics {
-            subsystem: subsystem.name().to_owned(),
-            route: subsystem.route(),
-            exchanges: subsystem.exchanges,
-            integrations: work.integrations,
-            integrations_by_cause: subsystem.asked,
-            solver_steps: work.steps,
-            time_in_solver: work.nanoseconds as f64 * 1e-9,
-            unresolved,
-            contacts: work.contacts.map(ContactStatistics::from),
-        };
+    pub(crate) fn add_subsystem(&mut self, own: SubsystemStatistics) {
         self.exchanges += own.exchanges;
         self.integrations += own.integrations;
         self.integrations_by_cause.add(&own.integrations_by_cause);

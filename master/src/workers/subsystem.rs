@@ -14,7 +14,7 @@ use linchpin_proto::version::PROTOCOL;
 
 use crate::connection::{Connection, LastWords};
 use crate::error::RunError;
-use crate::results::{Cause, Integrations};
+use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
 use crate::scene::Increment;
 use crate::time::MacroStep;
 
@@ -88,6 +88,22 @@ impl Subsystem {
     /// Name in the scene.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What it did so far; `unresolved` as [`SubsystemStatistics`] has it.
+    pub(crate) fn statistics(&self, unresolved: Option<f64>) -> SubsystemStatistics {
+        let work = &self.work;
+        SubsystemStatistics {
+            subsystem: self.name.clone(),
+            route: self.route(),
+            exchanges: self.exchanges,
+            integrations: work.integrations,
+            integrations_by_cause: self.asked,
+            solver_steps: work.steps,
+            time_in_solver: work.nanoseconds as f64 * 1e-9,
+            unresolved,
+            contacts: work.contacts.map(ContactStatistics::from),
+        }
     }
 
     /// Whether the coupling reads outputs of it. Otherwise it is never asked to look ahead.
