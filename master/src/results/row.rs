@@ -42,8 +42,8 @@ pub enum Drawn {
 }
 
 impl Row {
-    /// For the outputs of these `subsystems`, each with its name. `shows_step`: the length of the macro step is a column; so are the
-    /// `degrees` that there are.
+    /// For the outputs of these `subsystems`, each with its name. `shows_step`: the length of the macro step is a column; so
+    /// are the `degrees` that there are.
     pub(crate) fn new<'a>(
         layout: &Layout,
         subsystems: impl Iterator<Item = (&'a str, &'a [String])>,
@@ -96,8 +96,8 @@ impl Row {
         }
     }
 
-    /// Reads the values at the end of `step`, whose polynomials had these `degrees`, or at a sample, which `step` lasts until then;
-    /// `outputs(s)` are those of subsystem `s` there.
+    /// Reads the values at the end of `step`, whose polynomials had these `degrees`; for a sample it lasts until there.
+    /// `outputs(s)` are those of subsystem `s` at that time.
     pub(crate) fn read<'a>(
         &mut self,
         step: MacroStep,

@@ -4,7 +4,7 @@
 //! * `parts`: all of them with the layout of the coupling: what the next requests ask for;
 //! * `exchange`: all requests out, all answers in;
 //! * `samples`: results at fixed times inside a macro step;
-//! * [`recovery`]: exchanges after which a shorter macro step may follow;
+//! * `recovery`: exchanges after which a shorter macro step may follow;
 //! * `pieces`: an advance that a worker cannot take at once.
 
 mod exchange;
