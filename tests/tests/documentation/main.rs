@@ -1,0 +1,7 @@
+//! The pages of the documentation: their links, their lines, their commands.
+
+#![allow(clippy::unwrap_used)]
+
+mod lines;
+mod links;
+mod page;
