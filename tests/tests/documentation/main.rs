@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod chapters;
 mod lines;
 mod links;
 mod page;
