@@ -6,3 +6,4 @@ mod chapters;
 mod lines;
 mod links;
 mod page;
+mod reference;
