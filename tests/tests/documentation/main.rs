@@ -3,7 +3,10 @@
 #![allow(clippy::unwrap_used)]
 
 mod chapters;
+mod command;
+mod commands;
 mod lines;
 mod links;
 mod page;
 mod reference;
+mod walk;

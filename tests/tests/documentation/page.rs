@@ -11,6 +11,16 @@ pub struct Page {
     pub text: String,
 }
 
+/// A code block.
+pub struct Block<'a> {
+    /// What stands behind the fence.
+    pub language: &'a str,
+    /// Number of its first line.
+    pub number: usize,
+    /// Its lines.
+    pub lines: Vec<&'a str>,
+}
+
 /// A line of a page outside of its code blocks.
 pub struct Line<'a> {
     /// Counted from 1.
@@ -37,6 +47,27 @@ impl Page {
         self.lines()
             .filter(|(is_code, _)| !is_code)
             .map(|(_, line)| line)
+    }
+
+    /// The code blocks, in their order.
+    pub fn blocks(&self) -> Vec<Block<'_>> {
+        let mut blocks: Vec<Block> = Vec::new();
+        let mut in_code = false;
+        for (number, line) in self.text.lines().enumerate() {
+            if let Some(language) = line.trim_start().strip_prefix("```") {
+                in_code = !in_code;
+                if in_code {
+                    blocks.push(Block {
+                        language,
+                        number: number + 2,
+                        lines: Vec::new(),
+                    });
+                }
+            } else if in_code && let Some(block) = blocks.last_mut() {
+                block.lines.push(line);
+            }
+        }
+        blocks
     }
 
     fn lines(&self) -> impl Iterator<Item = (bool, Line<'_>)> {
