@@ -8,6 +8,11 @@ use crate::page::{Page, repository};
 const LEFT_OUT: &str = "..";
 
 #[test]
+fn the_readme_runs() {
+    walk("README.md");
+}
+
+#[test]
 fn the_first_scene_can_be_typed_along() {
     walk("docs/guide/first-scene.md");
 }
