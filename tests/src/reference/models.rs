@@ -96,13 +96,14 @@ fn solver_section(solver: &Solver, solvers: &[Solver]) -> String {
 
 /// A description as a sentence.
 fn sentence(description: &str) -> String {
-    let mut letters = description.chars();
-    let first: String = letters
-        .next()
-        .into_iter()
-        .flat_map(char::to_uppercase)
-        .collect();
-    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+    format!("{}.", capital(description).trim_end_matches('.'))
+}
+
+/// The text with a capital at its start.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    first.chain(letters).collect()
 }
 
 /// The name, and the first model where solvers of one name differ.
@@ -183,7 +184,12 @@ fn table<const N: usize>(heads: [&str; N], rows: Vec<[String; N]>) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    let mut text = format!("\n| {} |\n|{}\n", heads.join(" | "), "---|".repeat(N));
+    let mut text = format!(
+        "\n{}s:\n\n| {} |\n|{}\n",
+        capital(heads[0]),
+        heads.join(" | "),
+        "---|".repeat(N)
+    );
     for row in rows {
         let _ = writeln!(text, "| {} |", row.join(" | "));
     }

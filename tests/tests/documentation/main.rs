@@ -7,6 +7,7 @@ mod command;
 mod commands;
 mod lines;
 mod links;
+mod messages;
 mod page;
 mod reference;
 mod walk;
