@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use linchpin::connect::Place;
-use linchpin_master::scene::{Jacobian, Scene, is_study, load};
+use linchpin_master::scene::{Jacobian, Scene, is_spectrum, is_study, load};
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
@@ -28,7 +28,10 @@ fn shipped(folder: &Path, found: &mut Vec<PathBuf>) {
         let path = entry.unwrap().path();
         if path.is_dir() {
             shipped(&path, found);
-        } else if path.extension().is_some_and(|ending| ending == "toml") && !is_study(&path) {
+        } else if path.extension().is_some_and(|ending| ending == "toml")
+            && !is_study(&path)
+            && !is_spectrum(&path)
+        {
             found.push(path);
         }
     }

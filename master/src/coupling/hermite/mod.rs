@@ -10,9 +10,10 @@
 //! ```
 //!
 //! For free bodies the velocity at the end takes the mean of a load over the step, the position its mean weighted by `1 - s`:
-//! `l_1` weighs 2/3 and 1/3, `l_2` 1/6 and 0. What the polynomial misses of the true multiplier, `c H^3 s (s - r)(s - 1)..`,
-//! then has no mean of either kind, so positions and velocities feel it only through stiffness, damping and geometry: one
-//! power of `H` for each integration. That is why APV has order 5 where its multipliers have order 3.
+//! `l_1` weighs 2/3 and 1/3, `l_2` 1/6 and 0. What the polynomial misses of the true multiplier,
+//! `c H^3 s (s^2 - 6 s/5 + 3/10)`, then has no mean of either kind, so positions and velocities feel it only through
+//! stiffness, damping and geometry: one power of `H` for each integration. That is why APV has order 5 where its multipliers,
+//! which miss `c H^3/10` at the end, have order 3.
 //!
 //! Motion that is exchanged is a polynomial through position and velocity at both ends and the acceleration at the start: the
 //! end values are unknowns, with the conditions that they are what the partner's outputs say (`arcs`). All conditions are
