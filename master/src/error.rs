@@ -189,6 +189,17 @@ pub enum RunError {
     },
 }
 
+impl RunError {
+    /// Whether a shorter macro step from the same macro point may do without this failure of a look-ahead.
+    pub(crate) fn may_vanish_with_a_shorter_step(&self) -> bool {
+        match self {
+            Self::Worker { source, .. } => source.is_recoverable(),
+            Self::NotFinite { .. } | Self::Singular { .. } | Self::Grown { .. } => true,
+            _ => false,
+        }
+    }
+}
+
 fn advice(error: &CallError) -> &'static str {
     match error {
         error if error.is_recoverable() => "\n  help: a smaller coupling.macro_step may help",

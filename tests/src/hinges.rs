@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use linchpin_master::coupling::layout::{Coupled, Layout, LoadForm, MarkedJoint};
-use linchpin_master::coupling::pattern::Pattern;
-use linchpin_master::coupling::system::System;
-use linchpin_master::coupling::unknowns::Unknowns;
 use linchpin_master::joint::Level;
 use linchpin_master::joint::composite::{Kind, PlanarFrame, in_plane};
+use linchpin_master::layout::{Coupled, Layout, LoadForm, MarkedJoint};
+use linchpin_master::system::System;
+use linchpin_master::system::pattern::Pattern;
+use linchpin_master::system::unknowns::Unknowns;
 use linchpin_proto::v1;
 use nalgebra::Vector3;
 

@@ -1,7 +1,8 @@
 //! Macro steps that were rejected leave no trace in a run.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::{Options, StepDegrees};
+use linchpin_master::cosimulation::Options;
+use linchpin_master::results::StepDegrees;
 use linchpin_master::scene::{Calls, Scene};
 
 use crate::runs::{Trajectory, run, try_run};

@@ -5,8 +5,8 @@
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
 use linchpin_master::cosimulation::Options;
-use linchpin_master::coupling::solve::LinearSolver;
 use linchpin_master::scene::Scene;
+use linchpin_master::system::solve::LinearSolver;
 use linchpin_models::reference::LinkMotion;
 use linchpin_tests::chain::{reference, scene_text};
 use linchpin_tests::hinges;

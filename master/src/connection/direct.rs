@@ -5,7 +5,7 @@ use std::sync::Arc;
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
-use super::Connection;
+use super::worker::Connection;
 
 /// Calls the contract directly; messages are neither copied nor encoded.
 pub struct Direct {

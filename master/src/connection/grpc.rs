@@ -12,7 +12,7 @@ use tokio::runtime::Runtime;
 use tonic::transport::{Channel, Endpoint};
 use tonic::{Response, Status};
 
-use super::TimeLimits;
+use super::time_limits::TimeLimits;
 use crate::interrupt::Interrupt;
 
 /// Largest message that is accepted, in bytes.

@@ -9,7 +9,9 @@ mod last_words;
 mod launch;
 mod stream;
 mod threaded;
+mod time_limits;
 mod unary_turns;
+mod worker;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -27,36 +29,9 @@ pub use last_words::LastWords;
 pub use launch::{LaunchError, Launcher, WorkerProcess};
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
+pub use time_limits::TimeLimits;
 pub use unary_turns::UnaryTurns;
-
-/// A worker that one subsystem of a scene lives in.
-pub trait Connection: Send {
-    /// The calls outside the macro step.
-    fn contract(&self) -> &dyn Contract;
-
-    /// Sends a request; its answer is due at [`Connection::collect`]. One at a time.
-    fn post(&mut self, request: &ExchangeRequest) -> Result<(), CallError>;
-
-    /// Waits for the answer to the posted request. `reply` is overwritten.
-    fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError>;
-
-    /// What a worker that this master started left behind when its connection was lost; empty if unknown.
-    fn last_words(&self) -> LastWords {
-        LastWords::default()
-    }
-
-    /// Which way the exchange takes, for the summary.
-    fn route(&self) -> &'static str;
-}
-
-/// Time limits of a connection.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct TimeLimits {
-    /// For a worker to start or to be reached.
-    pub start: Duration,
-    /// For one answer.
-    pub answer: Duration,
-}
+pub use worker::Connection;
 
 /// How a worker is reached.
 #[derive(Clone)]

@@ -13,8 +13,9 @@ use tokio::task::JoinHandle;
 use tokio_stream::wrappers::UnboundedReceiverStream;
 use tonic::{Response, Status, Streaming};
 
+use super::Grpc;
 use super::grpc::{unless, within};
-use super::{Connection, Grpc};
+use super::worker::Connection;
 
 /// One bidirectional stream for the whole run.
 pub struct ExchangeStream {

@@ -7,7 +7,7 @@ use std::thread::JoinHandle;
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
-use super::Connection;
+use super::worker::Connection;
 
 type Answer = (ExchangeReply, Result<(), CallError>);
 

@@ -1,10 +1,10 @@
 //! Refuses a scene whose joints are open or turned over at the start.
 
-use crate::coupling::layout::Layout;
-use crate::coupling::system::motion_of;
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
+use crate::layout::Layout;
 use crate::scene::Scene;
+use crate::system::motion_of;
 
 /// Joints that are open by less than this share of the motion are closed up to rounding.
 const CLOSED: f64 = 1e-9;

@@ -5,11 +5,12 @@ use std::time::{Duration, Instant};
 use super::obstacle::Obstacle;
 use super::renewal::Renewal;
 use super::step_size::StepSize;
-use super::{Outcome, Parts, exchange, recovery};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::error_estimate::Estimate;
 use crate::error::RunError;
+use crate::results::Outcome;
 use crate::time::{MacroStep, TimePlan};
+use crate::workers::{Parts, exchange, recovery};
 
 /// The present macro step of `plan`, and in the same exchange as its advance the look-ahead over the following one.
 ///

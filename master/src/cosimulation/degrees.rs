@@ -4,9 +4,9 @@ use std::cmp::Reverse;
 
 use linchpin_proto::v1;
 
-use crate::coupling::automatic_degrees::StepDegrees;
-use crate::coupling::layout::{DrivenInput, Layout, LoadForm, Source};
 use crate::error::RunError;
+use crate::layout::{DrivenInput, Layout, LoadForm, Source};
+use crate::results::StepDegrees;
 use crate::scene::{self, Degree, Jacobian, Loads, Method, Scene};
 use crate::signal::MAX_DEGREE;
 

@@ -2,17 +2,18 @@
 
 use nalgebra::UnitQuaternion;
 
+use super::closed;
 use super::signal_loop::SignalBlock;
-use super::{Parts, closed};
-use crate::coupling::columns::Column;
-use crate::coupling::layout::{Coupled, Layout, What};
-use crate::coupling::solve::{LinearSolver, SingularColumn};
-use crate::coupling::system::{Point, System};
-use crate::coupling::unknowns::Unknowns;
 use crate::error::RunError;
 use crate::joint::Level;
+use crate::layout::{Coupled, Layout, What};
 use crate::scene::{Connection, Scene};
 use crate::signal::attitude::unit_quaternion;
+use crate::system::Column;
+use crate::system::solve::{LinearSolver, SingularColumn};
+use crate::system::unknowns::Unknowns;
+use crate::system::{Point, System};
+use crate::workers::Parts;
 
 /// Connected signals that change by less than this share are settled.
 const SETTLED: f64 = 1e-12;

@@ -3,7 +3,7 @@
 use linchpin_proto::v1::{self, MarkerKind};
 
 use super::contacts::{self, RecordedContact};
-use crate::coupling::layout::MarkedJoint;
+use crate::layout::MarkedJoint;
 use crate::scene::{self, Scene};
 
 /// All markers that the subsystems of a scene describe, and the joints between them.

@@ -42,16 +42,7 @@ impl From<Obstacle> for RunError {
 }
 
 impl RunError {
-    /// Whether a shorter macro step from the same macro point may do without this failure of a look-ahead.
-    pub(super) fn may_vanish_with_a_shorter_step(&self) -> bool {
-        match self {
-            Self::Worker { source, .. } => source.is_recoverable(),
-            Self::NotFinite { .. } | Self::Singular { .. } | Self::Grown { .. } => true,
-            _ => false,
-        }
-    }
-
-    /// The same where the step that failed is the shortest one.
+    /// The error of a failure of the shortest step.
     pub(super) fn of_least_step(mut self) -> Self {
         match &mut self {
             Self::NotConverged { remedy, .. } => {

@@ -1,7 +1,7 @@
 //! The springs of a penalty coupling, one for each condition of the joints.
 
-use crate::coupling::layout::Layout;
 use crate::error::RunError;
+use crate::layout::Layout;
 use crate::scene::{Scene, Spring};
 
 /// The spring of each row: that for lengths or that for angles.

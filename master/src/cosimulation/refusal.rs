@@ -3,10 +3,11 @@
 use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
 
-use super::{Subsystem, at_start};
 use crate::error::RunError;
 use crate::scene::nearest::nearest;
 use crate::scene::{Scene, SceneErrors};
+use crate::time::at_start;
+use crate::workers::{Parts, Subsystem};
 
 /// Mistakes that were found in several subsystems.
 #[derive(Default)]
@@ -49,6 +50,22 @@ pub(super) fn refuse_setup(
             scene.error(&key, failure.message, help).into()
         }
         error => subsystem.failed(error, at_start(scene.t_start)),
+    }
+}
+
+impl Parts {
+    /// Starts the instance of a subsystem anew.
+    pub(super) fn restart(
+        &mut self,
+        scene: &Scene,
+        number: usize,
+        models: &[v1::Model],
+        request: &v1::InitializeRequest,
+    ) -> Result<(), RunError> {
+        let subsystem = &mut self.subsystems[number];
+        let restarted = subsystem.restart(request.clone());
+        let refuse = |error| refuse_setup(scene, number, &models[number], subsystem, error);
+        restarted.map_err(refuse)
     }
 }
 

@@ -1,12 +1,13 @@
 //! How often a macro step is corrected, and when the columns of the coupling Jacobian are asked for afresh.
 
-use super::Parts;
 use super::obstacle::{Kind, Obstacle};
 use crate::coupling::corrector::{Corrector, Missed};
 use crate::coupling::measure::{Change, MOST_LEFT};
 use crate::error::RunError;
+use crate::results::Passes;
 use crate::scene::{Coupling, Iterations, Jacobian, Otherwise};
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// Rate of convergence above which new columns come with the next look-ahead.
 const SLOW: f64 = 0.3;
@@ -69,19 +70,6 @@ pub(crate) struct Renewal {
     /// What passes do not take away: rounding and the errors of the solvers.
     noise: f64,
     passes: Passes,
-}
-
-/// How the corrections of a macro step went.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Passes {
-    /// Corrections after the first one.
-    pub count: u32,
-    /// Size of the last correction over that of the one before, if there were several.
-    pub rate: Option<f64>,
-    /// Whether the last correction was still larger than the tolerance of the scene.
-    pub is_unconverged: bool,
-    /// Whether columns were asked for in this step.
-    pub with_columns: bool,
 }
 
 impl Renewal {

@@ -7,7 +7,7 @@
 use nalgebra::linalg::balancing::balance_parlett_reinsch;
 use nalgebra::{DMatrix, DVector};
 
-use crate::coupling::pattern::Pattern;
+use crate::system::pattern::Pattern;
 
 /// Eigenvalues of `I - A` below this are taken for 0: `A` is made of finite differences.
 const ROUNDING: f64 = 1e-7;

@@ -7,55 +7,33 @@ use super::corrected::look_ahead;
 use super::degrees::{check_degrees, load_forms};
 use super::initial::InitialState;
 use super::mechanism::Mechanism;
+use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::renewal::Renewal;
-use super::samples::Samples;
+use super::run::CoSimulation;
+use super::scheme::Scheme;
 use super::step_size::{StepSize, plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
 use super::uncorrected::Ceiling;
-use super::{CoSimulation, Parts, Scheme, Subsystem, velocities};
-use super::{panels, penalty};
-use crate::connection::{Connection, StartError};
-use crate::coupling::automatic_degrees::{AutomaticDegrees, StepDegrees};
+use super::{panels, penalty, velocities};
+use crate::coupling::automatic_degrees::AutomaticDegrees;
 use crate::coupling::columns::{Basis, Measuring};
 use crate::coupling::condition::{Condition, level_of};
 use crate::coupling::corrector::Corrector;
 use crate::coupling::explicit::Explicit;
 use crate::coupling::hermite::Hermite;
-use crate::coupling::layout::{Coupled, Layout, MarkedJoint, springs_at};
 use crate::coupling::penalty::{Penalty, write_loads};
 use crate::coupling::semi_implicit::SemiImplicit;
 use crate::coupling::springs::Springs;
 use crate::error::RunError;
-use crate::results::{Guard, Row, Statistics};
+use crate::layout::{Coupled, Layout, MarkedJoint, springs_at};
+use crate::results::{Guard, Row, Statistics, StepDegrees};
 use crate::scene::{self, Coupling, Degree, Jacobian, Method, Order, Scene, Spring};
 use crate::signal::{History, Variables};
-use crate::time::{MacroStep, TimePlan};
-
-/// Gives the connection to the worker of a subsystem.
-pub type Connect<'a> =
-    dyn FnMut(&Scene, &scene::Subsystem) -> Result<Box<dyn Connection>, StartError> + 'a;
-
-/// What a study may ask for beyond the scene.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Options {
-    /// Let a diverging run go on, for maps of stability.
-    pub watch_nothing: bool,
-    /// Start from joints that are open: a study of the macro-step map starts from unit states.
-    pub accept_open_joints: bool,
-    /// Multipliers at past macro points in place of a start, newest first; the polynomials then have their full degree
-    /// from the first step on.
-    pub established: Option<Vec<Vec<f64>>>,
-    /// Macro steps of these lengths in s, as a run with variable steps has found them, in place of those of the scene.
-    pub step_lengths: Option<Vec<f64>>,
-    /// Degrees of the polynomials over every macro step, as a run in which they follow the estimates has found them.
-    pub degrees: Option<Vec<StepDegrees>>,
-    /// Record the positions of all markers, also of those that no joint holds, and what contacts do: a picture of the
-    /// mechanism needs them.
-    pub record_markers: bool,
-}
+use crate::time::{MacroStep, TimePlan, at_start};
+use crate::workers::{Parts, Samples, Subsystem};
 
 impl CoSimulation {
     /// Connects to all workers, initialises them, closes the joints and looks ahead over the first macro step.
@@ -114,9 +92,15 @@ impl CoSimulation {
         let steps = (&plan, step_size.as_mut());
         let scheme = begin(scene, options, initial, highest, &mut parts, steps)?;
         let degrees = scheme.degrees();
-        let mut row = Row::new(&parts, scene.coupling.step_control.is_some(), degrees);
-        let start = super::at_start(scene.t_start);
-        row.read(start, degrees, &parts, scheme.multipliers());
+        let shows_step = scene.coupling.step_control.is_some();
+        let named = parts
+            .subsystems
+            .iter()
+            .map(|own| (own.name(), &own.output_names[..]));
+        let mut row = Row::new(&parts.layout, named, shows_step, degrees);
+        let start = at_start(scene.t_start);
+        let outputs = |subsystem: usize| &parts.subsystems[subsystem].outputs[..];
+        row.read(start, degrees, &parts.layout, outputs, scheme.multipliers());
         panels::check(scene, &row)?;
         let mechanism = options
             .record_markers
@@ -437,5 +421,5 @@ fn history_of(
 
 /// The scene has checked that the time span is at least one step long.
 fn first_step(plan: &TimePlan) -> MacroStep {
-    plan.step().unwrap_or_else(|| super::at_start(plan.t()))
+    plan.step().unwrap_or_else(|| at_start(plan.t()))
 }

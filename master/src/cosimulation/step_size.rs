@@ -1,13 +1,14 @@
 //! The length of a variable macro step: accepted or repeated, and how long the next one is.
 
 use super::obstacle::{Kind, Obstacle};
-use crate::cosimulation::{Options, Parts};
+use super::options::Options;
 use crate::coupling::degree_choice::{MOST_GROWTH, Purpose};
 use crate::coupling::error_estimate::{ErrorScales, Estimate};
 use crate::error::RunError;
 use crate::results::StepStatistics;
 use crate::scene::{Scene, StepControl};
 use crate::time::{MacroStep, TimePlan};
+use crate::workers::Parts;
 
 /// Share of the step that would just be accepted.
 const SAFETY: f64 = 0.9;

@@ -9,12 +9,13 @@ use linchpin_proto::version;
 use super::contacts;
 use super::geometry::law_of;
 use super::refusal::refuse_setup;
-use super::{Subsystem, at_start};
-use crate::coupling::layout::{Lack, MarkedConnection, MarkedJoint, MarkerLacks, column_name};
 use crate::error::RunError;
 use crate::joint::Level;
+use crate::layout::{Lack, MarkedConnection, MarkedJoint, MarkerLacks, column_name};
 use crate::scene::nearest::nearest;
 use crate::scene::{Connection, Joint, Scene, Side};
+use crate::time::at_start;
+use crate::workers::Subsystem;
 
 /// Asks a worker for its models and chooses the one that the scene wants.
 pub(super) fn model_of(

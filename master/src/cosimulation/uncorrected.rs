@@ -1,10 +1,11 @@
 //! One macro step of a method without a corrector.
 
 use super::step_size::StepSize;
-use super::{Outcome, Parts};
 use crate::coupling::uncorrected::Uncorrected;
 use crate::error::RunError;
+use crate::results::Outcome;
 use crate::time::{MacroStep, TimePlan};
+use crate::workers::Parts;
 
 /// The present macro step of `plan`. Where steps vary, a step that proves too long is taken back by all workers and tried again with
 /// a shorter one.

@@ -2,28 +2,15 @@
 
 use linchpin_proto::v1::{self, value::Kind};
 use nalgebra::{DMatrix, DVector};
-use serde::Serialize;
 
-use super::Parts;
 use super::initial::{InitialState, evaluate_all};
-use crate::coupling::layout::{Coupled, Layout};
-use crate::coupling::system::motion_of;
 use crate::error::RunError;
 use crate::joint::Level;
+use crate::layout::{Coupled, Layout};
+use crate::results::FreeVelocity;
 use crate::scene::Scene;
-
-/// An initial velocity that was chosen.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FreeVelocity {
-    /// Name of the subsystem.
-    pub subsystem: String,
-    /// Parameter of its model.
-    pub parameter: String,
-    /// Its value in the scene, in SI units.
-    pub given: f64,
-    /// Its value in the run.
-    pub found: f64,
-}
+use crate::system::motion_of;
+use crate::workers::Parts;
 
 /// Change of a parameter by which its influence is found; velocities enter `g'` linearly.
 const UNIT: f64 = 1.0;

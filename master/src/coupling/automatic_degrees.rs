@@ -3,18 +3,10 @@
 use std::ops::Range;
 
 use super::degree_choice::{DegreeChoice, MOST_GROWTH, Prospects, Purpose};
-use super::layout::Layout;
+use crate::layout::Layout;
+use crate::results::StepDegrees;
 use crate::scene::{Method, highest_stable_degree};
 use crate::signal::History;
-
-/// Degrees of the interpolation over a step, as far as they follow the estimates.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct StepDegrees {
-    /// Of the multipliers.
-    pub multipliers: Option<usize>,
-    /// Of the exchanged variables.
-    pub exchanged: Option<usize>,
-}
 
 /// Variables whose polynomials have one degree.
 #[derive(Debug, Clone)]

@@ -1,12 +1,12 @@
 //! How the levels of the coupling conditions are put together to one equation for the multipliers.
 
-use super::solve::{LinearSolver, SingularColumn};
-use super::system::System;
-use crate::cosimulation::Parts;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::scene::{Formula, Index, Method};
+use crate::system::System;
+use crate::system::solve::{LinearSolver, SingularColumn};
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// The equation that the corrected multipliers solve, linearised about the prediction.
 #[derive(Debug, Clone, Copy, PartialEq)]

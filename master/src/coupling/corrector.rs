@@ -1,14 +1,14 @@
 //! What a predictor/corrector method does in a macro step; in which order is told by the co-simulation.
 
-use super::automatic_degrees::StepDegrees;
 use super::columns::Resolution;
 use super::degree_choice::Purpose;
 use super::error_estimate::{ErrorScales, Estimate};
-use crate::cosimulation::Parts;
 use crate::coupling::measure::Change;
 use crate::error::RunError;
+use crate::results::StepDegrees;
 use crate::results::Verdict;
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// A method that predicts the coupling variables over a macro step and corrects them from what the workers answer.
 ///

@@ -1,8 +1,8 @@
 //! How large the error of a macro step is, compared with what is allowed.
 
-use super::layout::{Layout, What};
-use crate::cosimulation::Parts;
+use crate::layout::{Layout, What};
 use crate::scene::StepControl;
+use crate::workers::Parts;
 
 /// The worst error of a macro step.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,17 +5,17 @@ use std::time::{Duration, Instant};
 use super::columns::{Basis, Columns, Look, Measuring};
 use super::condition::{Condition, check_finite};
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::Over;
-use super::solve::LinearSolver;
-use super::system::{Point, System};
 use super::uncorrected::{Uncorrected, add_exchanged_errors};
-use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Parts, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
+use crate::layout::Over;
 use crate::scene::{Formula, Increment};
 use crate::signal::{Curve, History, Lagrange};
+use crate::system::solve::LinearSolver;
+use crate::system::unknowns::Unknowns;
+use crate::system::{Point, System};
 use crate::time::MacroStep;
+use crate::workers::{Ahead, Parts, exchange};
 
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::layout::Layout;
+use crate::layout::Layout;
 
 /// Compares a change of the coupling variables with the changes that the last macro steps made.
 ///

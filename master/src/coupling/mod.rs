@@ -1,10 +1,5 @@
-//! The coupling of the whole scene: conditions, Jacobian, and the methods that solve for the multipliers.
+//! The methods that solve for the multipliers, and what decides about their macro steps.
 //!
-//! * [`layout`]: which outputs the joints read, which are exchanged, and which inputs are driven;
-//! * [`system`]: `g` and `G = dg/dw` on every level, assembled from the joints and the workers' columns;
-//! * [`unknowns`]: what is solved for of every coupling variable;
-//! * [`pattern`]: which entries `G` has;
-//! * [`solve`]: the linear solver;
 //! * [`columns`]: increments, finite differences, and responses that stay in use;
 //! * [`position_error`]: errors of positions by those of the multipliers;
 //! * [`error_estimate`]: the error of a macro step against the tolerance;
@@ -26,17 +21,12 @@ pub mod degree_choice;
 pub mod error_estimate;
 pub mod explicit;
 pub mod hermite;
-pub mod layout;
 pub mod measure;
-pub mod pattern;
 pub mod penalty;
 pub mod position_error;
 pub mod promise;
 pub mod semi_implicit;
 pub mod shortfall;
-pub mod solve;
 pub mod springs;
-pub mod system;
 pub mod unbalanced;
 pub mod uncorrected;
-pub mod unknowns;

@@ -20,16 +20,16 @@ use std::time::Duration;
 
 use super::condition::check_finite;
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::{Layout, Over, Row};
-use super::system::motion_of;
 use super::unbalanced::{Loads, Unbalanced};
 use super::uncorrected::{Uncorrected, add_exchanged_errors, displacement};
-use crate::cosimulation::{Parts, exchange};
 use crate::error::RunError;
 use crate::joint::Level;
+use crate::layout::{Layout, Over, Row};
 use crate::scene::{Order, Spring};
 use crate::signal::{Curve, History, Lagrange, Variables};
+use crate::system::motion_of;
 use crate::time::MacroStep;
+use crate::workers::{Parts, exchange};
 
 /// State of a penalty coupling between two macro steps.
 pub struct Penalty {

@@ -2,10 +2,10 @@
 
 use super::columns::Columns;
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::system::{System, motion_of};
-use crate::cosimulation::Parts;
 use crate::joint::Level;
+use crate::system::{System, motion_of};
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// A correction that was solved for, as far as its error is concerned.
 #[derive(Clone, Copy)]

@@ -1,9 +1,9 @@
 //! What a correction promises, and what the workers make of it.
 
-use super::system::{System, motion_of};
-use crate::cosimulation::Parts;
 use crate::joint::Level;
 use crate::results::{Defect, Verdict};
+use crate::system::{System, motion_of};
+use crate::workers::Parts;
 
 /// The position conditions of the prediction, and their linear shift under the correction.
 pub struct Promise {

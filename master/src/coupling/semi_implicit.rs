@@ -3,25 +3,25 @@
 mod errors;
 
 use super::attempts::Attempts;
-use super::automatic_degrees::{AutomaticDegrees, StepDegrees};
+use super::automatic_degrees::AutomaticDegrees;
 use super::columns::{Basis, Columns, Look, Measuring, Nodes, Resolution};
 use super::condition::{Condition, check_finite};
 use super::corrector::{Again, Corrector, Missed};
 use super::degree_choice::Purpose;
 use super::error_estimate::{ErrorScales, Estimate};
-use super::layout::Over;
 use super::measure::{Change, Measure};
 use super::position_error::PositionErrors;
 use super::promise::Promise;
 use super::shortfall::Shortfall;
-use super::solve::LinearSolver;
-use super::system::{Point, System};
-use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Parts};
 use crate::error::RunError;
-use crate::results::Verdict;
+use crate::layout::Over;
+use crate::results::{StepDegrees, Verdict};
 use crate::signal::{Curve, History, Lagrange};
+use crate::system::solve::LinearSolver;
+use crate::system::unknowns::Unknowns;
+use crate::system::{Point, System};
 use crate::time::MacroStep;
+use crate::workers::{Ahead, Parts};
 
 /// State of a semi-implicit method between two macro steps.
 pub struct SemiImplicit {

@@ -13,17 +13,17 @@ use std::time::Duration;
 
 use super::condition::check_finite;
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::DrivenInput;
-use super::layout::input::Source;
-use super::system::motion_of;
 use super::unbalanced::{Loads, Unbalanced};
 use super::uncorrected::{Uncorrected, displacement};
-use crate::cosimulation::{Parts, exchange};
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
+use crate::layout::DrivenInput;
+use crate::layout::input::Source;
 use crate::scene::{Order, Spring};
 use crate::signal::{Curve, History, Variables};
+use crate::system::motion_of;
 use crate::time::MacroStep;
+use crate::workers::{Parts, exchange};
 
 use linchpin_proto::v1::Signal;
 

@@ -9,14 +9,14 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 
-use super::columns::Column;
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::{BoundEnd, DrivenInput, Layout};
-use crate::cosimulation::{Ahead, Parts, exchange};
 use crate::error::RunError;
 use crate::joint::MarkerChange;
+use crate::layout::{BoundEnd, DrivenInput, Layout};
 use crate::scene::Increment;
+use crate::system::Column;
 use crate::time::MacroStep;
+use crate::workers::{Ahead, Parts, exchange};
 
 /// The responses are measured anew when something has moved by this share of its size: bodies turn, and masses with them.
 const MEASURED_FOR: f64 = 0.3;

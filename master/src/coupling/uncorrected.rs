@@ -3,12 +3,12 @@
 use std::time::Duration;
 
 use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::layout::Layout;
-use crate::cosimulation::Parts;
 use crate::error::RunError;
+use crate::layout::Layout;
 use crate::scene::Spring;
 use crate::signal::History;
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// A method that takes a macro step with extrapolated coupling variables and knows only at its end how wrong they were.
 ///

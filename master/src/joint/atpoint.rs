@@ -3,7 +3,7 @@
 use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
-use super::Condition;
+use super::condition::Condition;
 use super::motion::{Jet, MarkerChange, Motion};
 
 /// One component of the atpoint joint (S1 eqs. 28 to 36), which is a ball joint in space and a hinge in the plane:

@@ -3,8 +3,8 @@
 use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
-use super::Condition;
 use super::atpoint::{distance, distance_change};
+use super::condition::Condition;
 use super::motion::{Jet, MarkerChange, Motion};
 
 /// The inplane joint (S1 eqs. 37 to 45); in the plane of a planar scene it keeps a point on a straight line:

@@ -3,7 +3,7 @@
 use linchpin_proto::joint_load::Pose;
 use nalgebra::Vector3;
 
-use super::Level;
+use super::level::Level;
 
 /// Motion of a marker. Vectors are in inertial axes; a marker in the plane moves in the first two of them and turns about
 /// the third, a scalar marker moves along the first. What was not read is zero.

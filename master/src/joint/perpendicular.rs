@@ -3,7 +3,7 @@
 use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
-use super::Condition;
+use super::condition::Condition;
 use super::motion::{Jet, MarkerChange, Motion};
 
 /// The perpendicular joint (S1 eqs. 46 to 54); in a planar scene it fixes the angle between two bodies:

@@ -3,7 +3,7 @@
 use linchpin_proto::joint_load::{End, JointLaw};
 use nalgebra::Vector3;
 
-use super::Condition;
+use super::condition::Condition;
 use super::motion::{Jet, MarkerChange, Motion};
 
 /// The massless rigid link between two scalar markers (S1 eq. 1):

@@ -1,8 +1,8 @@
 //! Stops a run that diverges.
 
-use crate::coupling::layout::{self, Layout};
 use crate::error::RunError;
 use crate::joint::LEAST_MOTION;
+use crate::layout::{Layout, Row as LayoutRow};
 use crate::results::Row;
 use crate::time::MacroStep;
 
@@ -105,7 +105,7 @@ impl Guard {
         }
         for number in 0..layout.rows.len() {
             let opening = row.residuals(number)[0].abs();
-            let layout::Row { joint, condition } = layout.rows[number];
+            let LayoutRow { joint, condition } = layout.rows[number];
             let motion = if layout.joints[joint].joint.condition(condition).is_length() {
                 self.largest_motion
             } else {

@@ -1,16 +1,22 @@
 //! What a run tells: rows, residuals, verdicts, statistics.
 
+mod free_velocity;
 mod guard;
 mod integrations;
+mod outcome;
 mod row;
 mod statistics;
+mod step_degrees;
 mod verdict;
 
+pub use free_velocity::FreeVelocity;
 pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
+pub use outcome::{Outcome, Passes};
 pub use row::{Drawn, Row};
 pub use statistics::{
     ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics,
     StepStatistics, SubsystemStatistics,
 };
+pub use step_degrees::StepDegrees;
 pub use verdict::{Defect, Verdict};

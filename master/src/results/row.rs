@@ -1,9 +1,9 @@
 //! The values at one macro point.
 
-use crate::cosimulation::Parts;
-use crate::coupling::automatic_degrees::StepDegrees;
-use crate::coupling::system::motion_of;
 use crate::joint::Level;
+use crate::layout::Layout;
+use crate::results::StepDegrees;
+use crate::system::motion_of;
 use crate::time::MacroStep;
 
 /// The column of variable macro steps.
@@ -42,17 +42,23 @@ pub enum Drawn {
 }
 
 impl Row {
-    /// `shows_step`: the length of the macro step is a column; so are the `degrees` that there are.
-    pub(crate) fn new(parts: &Parts, shows_step: bool, degrees: StepDegrees) -> Self {
+    /// For the outputs of these `subsystems`, each with its name. `shows_step`: the length of the macro step is a column; so
+    /// are the `degrees` that there are.
+    pub(crate) fn new<'a>(
+        layout: &Layout,
+        subsystems: impl Iterator<Item = (&'a str, &'a [String])>,
+        shows_step: bool,
+        degrees: StepDegrees,
+    ) -> Self {
         let mut columns = vec!["t".to_owned()];
         let mut first_outputs = Vec::new();
-        for subsystem in &parts.subsystems {
+        for (subsystem, outputs) in subsystems {
             first_outputs.push(columns.len());
-            let names = subsystem.output_names.iter();
-            columns.extend(names.map(|output| format!("{}.{output}", subsystem.name())));
+            let names = outputs.iter();
+            columns.extend(names.map(|output| format!("{subsystem}.{output}")));
         }
         let first_multiplier = columns.len();
-        let joints = &parts.layout.joints;
+        let joints = &layout.joints;
         let ends = joints.iter().flat_map(|joint| &joint.ends);
         let positions = ends
             .flat_map(|end| {
@@ -60,19 +66,13 @@ impl Row {
                 end.positions().map(move |place| first + place)
             })
             .collect();
-        let rows = 0..parts.layout.rows.len();
-        columns.extend(
-            rows.clone()
-                .map(|row| parts.layout.column_name(row, "lambda")),
-        );
+        let rows = 0..layout.rows.len();
+        columns.extend(rows.clone().map(|row| layout.column_name(row, "lambda")));
         let first_residual = columns.len();
-        let levels = parts.layout.level.up_to();
+        let levels = layout.level.up_to();
         for row in rows {
-            let name = |level: &Level| {
-                parts
-                    .layout
-                    .column_name(row, &format!("residual.{}", level.name()))
-            };
+            let name =
+                |level: &Level| layout.column_name(row, &format!("residual.{}", level.name()));
             columns.extend(levels.iter().map(name));
         }
         let first_of_step = columns.len();
@@ -96,49 +96,26 @@ impl Row {
         }
     }
 
-    /// Reads the values at the end of `step`, whose polynomials had these `degrees`.
-    pub(crate) fn read(
+    /// Reads the values at the end of `step`, whose polynomials had these `degrees`; for a sample it lasts until there.
+    /// `outputs(s)` are those of subsystem `s` at that time.
+    pub(crate) fn read<'a>(
         &mut self,
         step: MacroStep,
         degrees: StepDegrees,
-        parts: &Parts,
-        multipliers: &[f64],
-    ) {
-        let outputs = |subsystem: usize| &parts.subsystems[subsystem].outputs[..];
-        self.read_at(step, degrees, parts, outputs, multipliers);
-    }
-
-    /// Reads the values at a sample inside the macro step; `sample` lasts until there.
-    pub(crate) fn read_sample(
-        &mut self,
-        sample: MacroStep,
-        degrees: StepDegrees,
-        place: usize,
-        parts: &Parts,
-        multipliers: &[f64],
-    ) {
-        let outputs = |subsystem: usize| parts.subsystems[subsystem].sample(place);
-        self.read_at(sample, degrees, parts, outputs, multipliers);
-    }
-
-    fn read_at<'a>(
-        &mut self,
-        step: MacroStep,
-        degrees: StepDegrees,
-        parts: &Parts,
+        layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64],
         multipliers: &[f64],
     ) {
         self.values.clear();
         self.values.push(step.end);
-        for subsystem in 0..parts.subsystems.len() {
+        for subsystem in 0..self.first_outputs.len() {
             self.values.extend_from_slice(outputs(subsystem));
         }
         self.values.extend_from_slice(multipliers);
-        for (number, joint) in parts.layout.joints.iter().enumerate() {
-            let motion = motion_of(&parts.layout, number, &outputs);
+        for (number, joint) in layout.joints.iter().enumerate() {
+            let motion = motion_of(layout, number, &outputs);
             for condition in joint.joint.conditions() {
-                let values = condition.values(parts.layout.level, &motion);
+                let values = condition.values(layout.level, &motion);
                 self.values.extend_from_slice(&values[..self.levels]);
             }
         }

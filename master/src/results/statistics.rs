@@ -5,10 +5,8 @@ use std::time::Duration;
 use linchpin_proto::v1;
 use serde::Serialize;
 
-use super::{Integrations, Row, Verdict};
-use crate::cosimulation::{FreeVelocity, Outcome, Passes, Subsystem};
-use crate::coupling::automatic_degrees::StepDegrees;
-use crate::coupling::layout::Layout;
+use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
+use crate::layout::Layout;
 use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
 
@@ -279,19 +277,7 @@ impl Statistics {
         }
     }
 
-    pub(crate) fn add_subsystem(&mut self, subsystem: &Subsystem, unresolved: Option<f64>) {
-        let work = &subsystem.work;
-        let own = SubsystemStatistics {
-            subsystem: subsystem.name().to_owned(),
-            route: subsystem.route(),
-            exchanges: subsystem.exchanges,
-            integrations: work.integrations,
-            integrations_by_cause: subsystem.asked,
-            solver_steps: work.steps,
-            time_in_solver: work.nanoseconds as f64 * 1e-9,
-            unresolved,
-            contacts: work.contacts.map(ContactStatistics::from),
-        };
+    pub(crate) fn add_subsystem(&mut self, own: SubsystemStatistics) {
         self.exchanges += own.exchanges;
         self.integrations += own.integrations;
         self.integrations_by_cause.add(&own.integrations_by_cause);

@@ -1,10 +1,10 @@
 //! Reads `[[joint]]`.
 
 use super::error_kind::SceneErrorKind;
+use super::lists::collect;
 use super::names::Registry;
 use super::reader::{FINITE, Field, Problems, Section};
 use super::reference::find_name;
-use super::resolve::collect;
 use super::resolved::{Geometry, Joint, JointKind, Side};
 use super::written::Value;
 

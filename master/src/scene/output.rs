@@ -1,10 +1,10 @@
 //! Reads `[output]`: what is recorded and drawn.
 
 use super::error_kind::SceneErrorKind;
+use super::lists::collect;
 use super::names::Registry;
 use super::reader::{Field, Problems, Section};
 use super::reference::read_variable;
-use super::resolve::collect;
 use super::resolved::{Output, Over, Panel};
 use super::step_control::read_step;
 

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::Scene;
 use super::connection;
 use super::coupling;
 use super::error::{SceneError, SceneErrors};
 use super::error_kind::SceneErrorKind;
 use super::joint;
+use super::lists::{collect, sections};
 use super::monolithic;
 use super::names::Registry;
 use super::output;
@@ -15,6 +15,7 @@ use super::reader::{FINITE, Field, Problems, Range, Section};
 use super::resolved::RunSettings;
 use super::subsystem;
 use super::sweeps;
+use super::whole::Scene;
 use super::written::{Value, Written};
 
 const SECTIONS: [&str; 11] = [
@@ -113,12 +114,6 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     })
 }
 
-/// All or nothing, but every element is read.
-pub(super) fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
-    let read: Vec<Option<T>> = items.iter().map(read).collect();
-    read.into_iter().collect()
-}
-
 /// `Some(None)` if the table is absent.
 fn optional<T>(
     field: Option<Field<'_>>,
@@ -159,36 +154,6 @@ fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head>
         t_start,
         t_end,
     })
-}
-
-/// The tables of a list, each under its name.
-pub(super) fn sections<'w>(
-    root: &Section<'w>,
-    key: &'static str,
-    problems: &mut Problems<'_>,
-) -> Vec<Section<'w>> {
-    let allowed = match key {
-        "subsystem" => "tables headed [[subsystem]]",
-        "joint" => "tables headed [[joint]]",
-        "connection" => "tables headed [[connection]]",
-        "scene" => "tables headed [[scene]]",
-        "setting" => "tables headed [[setting]]",
-        "curve" => "tables headed [[spectrum.curve]]",
-        "point" => "tables headed [[spectrum.region.point]]",
-        _ => "tables headed [[case]]",
-    };
-    let items = root
-        .get(key)
-        .and_then(|field| field.items(allowed, problems))
-        .unwrap_or_default();
-    let mut sections = Vec::new();
-    for mut item in items {
-        if let Some(name) = item.node.name() {
-            item.key = format!("{key}.{name}");
-        }
-        sections.extend(item.section(problems));
-    }
-    sections
 }
 
 fn read_run(root: &Section<'_>, problems: &mut Problems<'_>) -> Option<RunSettings> {

@@ -4,10 +4,10 @@ use std::path::Path;
 
 use super::error::SceneErrors;
 use super::error_kind::SceneErrorKind;
+use super::lists::{collect, sections};
 use super::reader::{FINITE, Field, POSITIVE, Problems, Range, Section};
-use super::resolve::{collect, sections};
 use super::sweeps::{log_grid, read_linear_grid};
-use super::text_of;
+use super::text::text_of;
 use super::written::{Value, Written};
 
 /// Schemes over the step, and a region of parameters; one of them is there.

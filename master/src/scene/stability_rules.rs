@@ -9,9 +9,9 @@
 
 use std::fmt;
 
-use super::Scene;
 use super::place::Place;
 use super::resolved::{Coupling, Degree, Index, Method};
+use super::whole::Scene;
 
 /// A scene that is sound but known to be unstable.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,6 +69,18 @@ const RULES: [Rule; 3] = [
 
 /// A limit is met if it is missed by rounding only.
 const ROUNDING: f64 = 1e-12;
+
+impl Coupling {
+    /// Whether a multiplier at `T_{N+1}` is its mean over the step before: the corrector of degree 0 holds it over the
+    /// whole step, so as a value in time it belongs to the middle of the step. Not where the degree may change.
+    pub fn multipliers_are_step_means(&self) -> bool {
+        let highest = match self.degree {
+            Degree::Fixed(degree) => degree,
+            Degree::Automatic => highest_stable_degree(self.method, self.macro_step),
+        };
+        self.method.is_corrected() && highest == 0
+    }
+}
 
 /// The known instabilities of a scene; empty if none is known.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {

@@ -3,17 +3,18 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::assign::Assignment;
 use super::coupling::METHOD_KEY;
 use super::error::SceneErrors;
+use super::lists::{collect, sections};
 use super::names::Registry;
-use super::overrides::{Assignment, Override};
+use super::overrides::Override;
 use super::place::Source;
 use super::reader::{Field, POSITIVE, Problems, Section};
 use super::reference::find_name;
-use super::resolve::{collect, sections};
 use super::step_control::read_step;
 use super::sweeps::{read_macro_steps, set_assignments};
-use super::text_of;
+use super::text::text_of;
 use super::written::{Value, Written};
 
 /// A study: every scene with every setting that is meant for it, over the macro steps of the scene.

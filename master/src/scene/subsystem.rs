@@ -6,8 +6,8 @@ use linchpin_proto::v1::{self, value::Kind};
 use tonic::transport::Uri;
 
 use super::error_kind::SceneErrorKind;
+use super::lists::collect;
 use super::reader::{FINITE, Field, Problems, Section, is_name};
-use super::resolve::collect;
 use super::resolved::{Calls, Served, Subsystem};
 use super::written::Value;
 

@@ -1,6 +1,7 @@
 //! Reads the studies over a scene: `[[case]]`, `[converge]` and `[stability]`.
 
-use super::overrides::{Assignment, Override};
+use super::assign::Assignment;
+use super::overrides::Override;
 use super::reader::{FINITE, Field, POSITIVE, Problems, Section};
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
 use super::step_control::read_step;

@@ -1,12 +1,13 @@
 //! The same scene with other values: overrides, cases, and the points of a stability map.
 
-use super::Scene;
+use super::assign::Assignment;
 use super::error::{SceneError, SceneErrors};
-use super::overrides::{Assignment, Override};
+use super::overrides::Override;
 use super::resolve::resolve;
 use super::resolved::{Axis, Case, Subsystem};
 use super::study::Settings;
 use super::sweeps::{axis_assignments, set_assignments};
+use super::whole::Scene;
 use super::written::{Value, Written};
 
 impl Scene {

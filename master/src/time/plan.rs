@@ -1,6 +1,6 @@
 //! The macro points of a run, known in advance or found step by step.
 
-use super::{MacroGrid, MacroStep, ROUNDING};
+use super::grid::{MacroGrid, MacroStep, ROUNDING};
 
 /// Where a run stands and which macro step it takes from there. No other place adds macro steps up.
 #[derive(Debug, Clone, PartialEq)]

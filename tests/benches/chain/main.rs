@@ -1,7 +1,7 @@
 //! What a chain of n links with one worker each costs over n = 2 .. 64.
 //!
 //! * one solution of the coupling system, dense and sparse, for chains, rings, trees and stars of bodies: from here comes
-//!   where [`LinearSolver`](linchpin_master::coupling::solve::LinearSolver) changes from one to the other;
+//!   where [`LinearSolver`](linchpin_master::system::solve::LinearSolver) changes from one to the other;
 //! * the macro step with the workers in this process and as n processes over Unix sockets;
 //! * the memory of the master after a thousand and after ten thousand macro steps.
 //!

@@ -1,7 +1,7 @@
 //! One solution of the coupling system, dense and sparse.
 
-use linchpin_master::coupling::pattern::Pattern;
-use linchpin_master::coupling::solve::LinearSolver;
+use linchpin_master::system::pattern::Pattern;
+use linchpin_master::system::solve::LinearSolver;
 use linchpin_tests::hinges;
 
 use crate::least_time;

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::coupling::layout::{Frame, Layout};
+use crate::layout::{Frame, Layout};
 use crate::signal::attitude::{small_rotation, unit_quaternion};
 
 /// The attitude of a frame that the coupling outputs of its subsystem tell.

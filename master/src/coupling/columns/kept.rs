@@ -6,8 +6,9 @@ use nalgebra::UnitQuaternion;
 
 use super::axes::{attitude_of, turn};
 use super::lengths::{Between, MOST_SUPPORTS};
-use crate::coupling::layout::Layout;
+use super::measured::{Kind, Measured, Nodes};
 use crate::joint::Level;
+use crate::layout::Layout;
 
 /// The responses as they were measured over look-aheads of several lengths, and the attitudes that the bodies had then.
 ///
@@ -27,64 +28,6 @@ pub struct Kept {
     last: Kind,
     /// Whether responses of this kind are taken from `between`.
     is_between: bool,
-}
-
-/// The past nodes of the curves in which inputs are raised, if these depend on them, and how many of them each uses.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Nodes<'a> {
-    /// Times of past macro points relative to the present one in s.
-    pub times: &'a [f64],
-    /// Degrees of the polynomials of all coupling variables.
-    pub degrees: &'a [usize],
-}
-
-/// To what responses belong: the length of a look-ahead in s, and the nodes.
-#[derive(Debug, Clone, Default, PartialEq)]
-struct Kind {
-    length: f64,
-    times: Vec<f64>,
-    degrees: Vec<usize>,
-}
-
-impl Kind {
-    fn set(&mut self, length: f64, nodes: Nodes<'_>) {
-        self.length = length;
-        self.times.clear();
-        self.times.extend_from_slice(nodes.times);
-        self.degrees.clear();
-        self.degrees.extend_from_slice(nodes.degrees);
-    }
-
-    fn has_nodes(&self, nodes: Nodes<'_>) -> bool {
-        self.times == nodes.times && self.degrees == nodes.degrees
-    }
-
-    fn nodes(&self) -> Nodes<'_> {
-        Nodes {
-            times: &self.times,
-            degrees: &self.degrees,
-        }
-    }
-}
-
-/// Responses to raised inputs over one length, those that are not known empty.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Measured {
-    kind: Kind,
-    pub(super) responses: Vec<Vec<f64>>,
-    pub(super) attitudes: Vec<UnitQuaternion<f64>>,
-}
-
-impl Measured {
-    /// Length of the look-ahead in s.
-    pub fn length(&self) -> f64 {
-        self.kind.length
-    }
-
-    fn has(&self, needed: &[bool]) -> bool {
-        let mut responses = self.responses.iter().zip(needed);
-        responses.all(|(response, is_needed)| !is_needed || !response.is_empty())
-    }
 }
 
 /// Most kinds whose responses stay: macro steps that vary come back to the same lengths.

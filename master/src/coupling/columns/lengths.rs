@@ -14,9 +14,9 @@
 use std::ops::Range;
 
 use super::axes::turn;
-use super::kept::Measured;
-use crate::coupling::layout::Layout;
+use super::measured::Measured;
 use crate::joint::Level;
+use crate::layout::Layout;
 
 /// Most lengths that an interpolation goes through.
 pub const MOST_SUPPORTS: usize = 3;

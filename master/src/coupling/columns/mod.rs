@@ -1,29 +1,29 @@
 //! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
 //!
-//! * `column`: the response to one raised input, and how much it is raised;
+//! * `measured`: responses over one length, and what they depend on;
 //! * `kept`: responses of earlier macro steps that stay in use;
 //! * `axes`: responses that turn with the bodies;
 //! * `lengths`: responses over one length, from those that were measured over others;
 //! * `resolution`: whether the macro step resolves the responses.
 
 mod axes;
-mod column;
 mod kept;
 mod lengths;
+mod measured;
 mod resolution;
 
 use std::ops::Range;
 
-use super::layout::{DrivenInput, Layout, Over};
-use super::unknowns::Unknowns;
-use crate::cosimulation::{Ahead, Parts, Subsystem};
 use crate::joint::Level;
+use crate::layout::{DrivenInput, Layout, Over};
 use crate::scene::Increment;
 use crate::signal::{Curves, SharePolynomial};
+use crate::system::Column;
+use crate::system::unknowns::Unknowns;
+use crate::workers::{Ahead, Parts, Subsystem};
 
-pub use column::Column;
 use kept::Kept;
-pub use kept::Nodes;
+pub use measured::Nodes;
 pub use resolution::Resolution;
 
 /// The columns of all driven inputs, one for each shape of an input.

@@ -1,7 +1,7 @@
 //! Whether a macro step resolves how a subsystem responds to loads.
 
-use crate::coupling::layout::Layout;
 use crate::joint::Level;
+use crate::layout::Layout;
 use crate::signal::SharePolynomial;
 
 /// Responses that differ from those of inertia alone by this factor are not resolved: for an undamped spring under a load that grows with time

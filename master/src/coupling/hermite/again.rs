@@ -1,12 +1,12 @@
 //! Corrections of a step after the first one.
 
 use super::{Hermite, largest_changes};
-use crate::cosimulation::Parts;
 use crate::coupling::columns::Nodes;
 use crate::coupling::corrector::{Again, Missed};
 use crate::coupling::measure::Change;
 use crate::signal::Curves;
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 impl Again for Hermite {
     fn request_pass(&mut self, parts: &mut Parts, step: MacroStep, with_columns: bool) {

@@ -4,10 +4,10 @@ use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::variant::Variant;
-use crate::coupling::layout::Layout;
-use crate::coupling::unknowns::Unknowns;
+use crate::layout::Layout;
 use crate::signal::attitude::{attitude, rotation_of_change};
 use crate::signal::{Curve, Curves, ErrorShares, History, SharePolynomial, vector_at};
+use crate::system::unknowns::Unknowns;
 
 /// What a variable is, and so what its curve is made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

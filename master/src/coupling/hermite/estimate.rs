@@ -1,11 +1,11 @@
 //! The error of a step of Hermite coupling, from predicted against corrected curves.
 
 use super::Hermite;
-use crate::cosimulation::Parts;
 use crate::coupling::attempts::CHORD_ORDER;
 use crate::coupling::error_estimate::{ErrorScales, Estimate, Suspect};
 use crate::coupling::position_error::Correction;
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// Mean error of exchanged motion over the step, per difference between predicted and corrected end: the curve of degree 4 misses
 /// `s^3 (s - 1)^2`, whose mean is 1/60, times a term that falls faster than the difference does.

@@ -3,8 +3,8 @@
 use nalgebra::UnitQuaternion;
 
 use super::arcs::Arcs;
-use crate::coupling::system::Point;
-use crate::coupling::unknowns::Unknowns;
+use crate::system::Point;
+use crate::system::unknowns::Unknowns;
 
 /// Values of the curves, in memory that is kept from step to step.
 pub struct Sample {

@@ -1,10 +1,10 @@
 //! The equations of all unknowns of a macro step.
 
 use super::variant::Variant;
-use crate::coupling::layout::Layout;
-use crate::coupling::pattern::Pattern;
-use crate::coupling::system::System;
 use crate::joint::Level;
+use crate::layout::Layout;
+use crate::system::System;
+use crate::system::pattern::Pattern;
 
 /// The conditions of one macro step, one for each unknown: of a joint's row `g'' = 0` at the start where the variant has it
 /// and the variant's conditions at the end, of exchanged motion `w - y = 0` and `H (w' - y') = 0`, of a connected signal

@@ -1,7 +1,6 @@
 //! The error of a macro step by the degree of the polynomials, and with it the degrees of the next one.
 
 use super::SemiImplicit;
-use crate::cosimulation::Parts;
 use crate::coupling::attempts::CHORD_ORDER;
 use crate::coupling::automatic_degrees::Group;
 use crate::coupling::degree_choice::{Prospect, Prospects, Purpose};
@@ -9,6 +8,7 @@ use crate::coupling::error_estimate::{ErrorScales, Estimate, Suspect};
 use crate::coupling::position_error::Correction;
 use crate::signal::ErrorShares;
 use crate::time::MacroStep;
+use crate::workers::Parts;
 
 /// The step that was corrected and what is allowed of it.
 #[derive(Clone, Copy)]

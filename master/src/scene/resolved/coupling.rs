@@ -5,7 +5,6 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use crate::scene::formula::Formula;
-use crate::scene::highest_stable_degree;
 use crate::signal::MAX_DEGREE;
 
 /// How the subsystems are coupled.
@@ -48,16 +47,6 @@ pub struct StepControl {
 }
 
 impl Coupling {
-    /// Whether a multiplier at `T_{N+1}` is its mean over the step before: the corrector of degree 0 holds it over the
-    /// whole step, so as a value in time it belongs to the middle of the step. Not where the degree may change.
-    pub fn multipliers_are_step_means(&self) -> bool {
-        let highest = match self.degree {
-            Degree::Fixed(degree) => degree,
-            Degree::Automatic => highest_stable_degree(self.method, self.macro_step),
-        };
-        self.method.is_corrected() && highest == 0
-    }
-
     /// Whether a degree follows the estimates.
     pub fn has_automatic_degree(&self) -> bool {
         [self.degree, self.exchanged_degree].contains(&Degree::Automatic)

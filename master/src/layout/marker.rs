@@ -1,0 +1,190 @@
+//! The end of a joint: where a marker's motion stands in its subsystem's outputs.
+
+use linchpin_proto::joint_load::{Pose, Reads};
+use linchpin_proto::v1::{self, MarkerKind};
+use nalgebra::Vector3;
+
+use crate::joint::{Level, MarkerChange, MarkerMotion};
+use crate::signal::attitude::small_rotation;
+
+/// A marker that a joint holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoundEnd {
+    /// Place of the subsystem in the scene.
+    pub subsystem: usize,
+    kind: MarkerKind,
+    levels: Vec<Places>,
+}
+
+/// Places in the coupling outputs on one level; empty where nothing is read.
+#[derive(Debug, Clone, PartialEq, Default)]
+struct Places {
+    position: Vec<usize>,
+    rotation: Vec<usize>,
+}
+
+impl BoundEnd {
+    /// Finds what `reads` tells on every level up to `level`; `place_of` gives the place of an output.
+    ///
+    /// # Errors
+    /// The level on which the marker offers too little.
+    pub(super) fn new(
+        subsystem: usize,
+        marker: &v1::Marker,
+        reads: Reads,
+        level: Level,
+        mut place_of: impl FnMut(&str) -> usize,
+    ) -> Result<Self, Level> {
+        let mut levels = Vec::new();
+        for &level in level.up_to() {
+            let names = outputs_of(marker, level);
+            let parts = Parts::of(marker.kind(), level);
+            let mut find = |places: std::ops::Range<usize>| {
+                let names = names.get(places).ok_or(level)?;
+                Ok(names.iter().map(|name| place_of(name)).collect())
+            };
+            levels.push(Places {
+                position: find(if reads.position { parts.position } else { 0..0 })?,
+                rotation: find(if reads.rotation { parts.rotation } else { 0..0 })?,
+            });
+        }
+        Ok(Self {
+            subsystem,
+            kind: marker.kind(),
+            levels,
+        })
+    }
+
+    /// Places of the coordinates and of the angle or quaternion on position level.
+    pub fn positions(&self) -> impl Iterator<Item = usize> {
+        self.places(Level::Position)
+    }
+
+    /// Places of what is read on a level.
+    pub fn places(&self, level: Level) -> impl Iterator<Item = usize> {
+        let levels = self.levels.get(level as usize).into_iter();
+        levels.flat_map(|places| places.position.iter().chain(&places.rotation).copied())
+    }
+
+    /// Places of the coordinates on position level.
+    pub fn coordinates(&self) -> &[usize] {
+        self.translation(Level::Position)
+    }
+
+    /// Places of the coordinates, their velocities or accelerations.
+    pub fn translation(&self, level: Level) -> &[usize] {
+        let places = self.levels.get(level as usize);
+        places.map_or(&[], |places| &places.position)
+    }
+
+    /// The motion that the outputs of the subsystem tell.
+    pub fn motion(&self, outputs: &[f64]) -> MarkerMotion {
+        let mut motion = MarkerMotion::default();
+        for (level, places) in Level::ALL.iter().zip(&self.levels) {
+            let position = vector(&places.position, outputs);
+            match level {
+                Level::Position => motion.pose = self.pose(position, places, outputs),
+                Level::Velocity => {
+                    motion.velocity = position;
+                    motion.omega = self.turning(&places.rotation, outputs);
+                }
+                Level::Acceleration => {
+                    motion.acceleration = position;
+                    motion.alpha = self.turning(&places.rotation, outputs);
+                }
+            }
+        }
+        motion
+    }
+
+    fn pose(&self, position: Vector3<f64>, places: &Places, outputs: &[f64]) -> Pose {
+        match places.rotation[..] {
+            [angle] => Pose::planar(position.x, position.y, outputs[angle]),
+            [w, x, y, z] => Pose::spatial(position, [w, x, y, z].map(|place| outputs[place])),
+            _ => Pose {
+                position,
+                ..Pose::default()
+            },
+        }
+    }
+
+    /// Rates of turning: about the third axis in the plane.
+    fn turning(&self, places: &[usize], values: &[f64]) -> Vector3<f64> {
+        match self.kind {
+            MarkerKind::Planar => Vector3::new(0.0, 0.0, vector(places, values).x),
+            _ => vector(places, values),
+        }
+    }
+
+    /// The change of the motion that goes with a change `column` of the outputs.
+    pub fn change(&self, outputs: &[f64], column: &[f64]) -> MarkerChange {
+        let mut change = MarkerChange::default();
+        for (level, places) in Level::ALL.iter().zip(&self.levels) {
+            let position = vector(&places.position, column);
+            match level {
+                Level::Position => {
+                    change.position = position;
+                    change.rotation = self.rotation(&places.rotation, outputs, column);
+                }
+                Level::Velocity => {
+                    change.velocity = position;
+                    change.omega = self.turning(&places.rotation, column);
+                }
+                Level::Acceleration => {
+                    change.acceleration = position;
+                    change.alpha = self.turning(&places.rotation, column);
+                }
+            }
+        }
+        change
+    }
+
+    fn rotation(&self, places: &[usize], outputs: &[f64], column: &[f64]) -> Vector3<f64> {
+        match *places {
+            [w, x, y, z] => {
+                let parts = [w, x, y, z];
+                small_rotation(
+                    parts.map(|place| outputs[place]),
+                    parts.map(|place| column[place]),
+                )
+            }
+            _ => self.turning(places, column),
+        }
+    }
+}
+
+/// The first three of some values; missing ones are 0.
+pub(crate) fn vector(places: &[usize], values: &[f64]) -> Vector3<f64> {
+    let mut vector = Vector3::zeros();
+    for (component, &place) in vector.iter_mut().zip(places) {
+        *component = values[place];
+    }
+    vector
+}
+
+/// Which entries of a marker's lists are coordinates, and which tell the orientation.
+pub(super) struct Parts {
+    pub(super) position: std::ops::Range<usize>,
+    pub(super) rotation: std::ops::Range<usize>,
+}
+
+impl Parts {
+    pub(super) fn of(kind: MarkerKind, level: Level) -> Self {
+        let (position, rotation) = match (kind, level) {
+            (MarkerKind::Planar, _) => (0..2, 2..3),
+            (MarkerKind::Spatial, Level::Position) => (0..3, 3..7),
+            (MarkerKind::Spatial, _) => (0..3, 3..6),
+            (MarkerKind::Scalar | MarkerKind::Unspecified, _) => (0..1, 0..0),
+        };
+        Self { position, rotation }
+    }
+}
+
+/// Names of the marker's outputs on a level.
+pub fn outputs_of(marker: &v1::Marker, level: Level) -> &[String] {
+    match level {
+        Level::Position => &marker.position,
+        Level::Velocity => &marker.velocity,
+        Level::Acceleration => &marker.acceleration,
+    }
+}

@@ -1,0 +1,43 @@
+//! What became of a macro step.
+
+use std::time::Duration;
+
+use super::verdict::Verdict;
+use crate::time::MacroStep;
+
+/// What a method reports of a macro step.
+pub struct Outcome {
+    /// The step that was accepted.
+    pub step: MacroStep,
+    /// Verdict on it.
+    pub verdict: Verdict,
+    /// Time that was spent on solving for the multipliers.
+    pub solving: Duration,
+    /// How the corrections went.
+    pub passes: Passes,
+}
+
+impl Outcome {
+    /// Of a step that no corrector has judged.
+    pub(crate) fn of_step(step: MacroStep, solving: Duration) -> Self {
+        Self {
+            step,
+            verdict: Verdict::Uncorrected,
+            solving,
+            passes: Passes::default(),
+        }
+    }
+}
+
+/// How the corrections of a macro step went.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Passes {
+    /// Corrections after the first one.
+    pub count: u32,
+    /// Size of the last correction over that of the one before, if there were several.
+    pub rate: Option<f64>,
+    /// Whether the last correction was still larger than the tolerance of the scene.
+    pub is_unconverged: bool,
+    /// Whether columns were asked for in this step.
+    pub with_columns: bool,
+}

@@ -1,0 +1,49 @@
+//! The conditions of exchanged variables, differentiated.
+
+use nalgebra::Vector3;
+
+use super::point::Point;
+use super::unknowns::Unknowns;
+use crate::layout::Exchanged;
+use crate::layout::exchanged::Rates;
+use crate::layout::marker::vector;
+use crate::signal::attitude::vector_change_rate;
+
+impl Exchanged {
+    /// Where its rates stand, if they are among the unknowns.
+    pub(super) fn rates_among(&self, unknowns: &Unknowns) -> Option<&Rates> {
+        let has_rate = unknowns.of(self.first).len() > 1;
+        self.rates.as_ref().filter(|_| has_rate)
+    }
+
+    /// Derivatives of the conditions on every level with respect to each unknown of a variable.
+    pub(super) fn units(&self, unknowns: &Unknowns) -> &'static [[f64; 3]] {
+        match self.rates_among(unknowns) {
+            None => &[[1.0; 3]],
+            Some(_) => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
+        }
+    }
+
+    /// The changes of the variables, `H` times their rates and `H^2` times their second derivatives that go with a change
+    /// `column` of the outputs; where rates are no unknowns the change of the variables on every level.
+    pub(super) fn changes(
+        &self,
+        unknowns: &Unknowns,
+        outputs: &[f64],
+        point: Point<'_>,
+        column: &[f64],
+    ) -> [Vector3<f64>; 3] {
+        let change = self.change(outputs, point.attitudes, point.w, column);
+        let Some(rates) = self.rates_among(unknowns) else {
+            return [change; 3];
+        };
+        let step = point.step;
+        let shown = self.read(outputs, point.attitudes, point.w);
+        let phi = self.vector(&shown);
+        let turned =
+            vector_change_rate(&phi, &vector(&rates.speed, outputs), &self.vector(&change));
+        let speed = rates.speed(column, &phi) + turned;
+        let acceleration = rates.acceleration(column);
+        [change, step * speed, step * step * acceleration]
+    }
+}

@@ -1,0 +1,25 @@
+//! The coupling conditions `g` of the whole scene and their Jacobian `G`.
+//!
+//! * `equations`: both on every level, assembled from the joints (`residuals`, `jacobians`), the exchanged variables (`exchanged`)
+//!   and the workers' columns (`column`), about a point (`point`);
+//! * [`unknowns`]: what is solved for of every coupling variable;
+//! * `entries`, [`pattern`]: which entries `G` has;
+//! * [`solve`]: the linear solver;
+//! * `motion`: the motion of the joints' markers.
+
+mod column;
+mod entries;
+mod equations;
+mod exchanged;
+mod jacobians;
+mod motion;
+pub mod pattern;
+mod point;
+mod residuals;
+pub mod solve;
+pub mod unknowns;
+
+pub use column::Column;
+pub use equations::System;
+pub use motion::motion_of;
+pub use point::Point;
