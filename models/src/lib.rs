@@ -27,7 +27,7 @@ use linchpin_worker::Model;
 
 /// The examples of the guide are compiled.
 #[cfg(doctest)]
-#[doc = include_str!("../../docs/nonsmooth-own-system.md")]
+#[doc = include_str!("../../docs/guide/own-system.md")]
 pub struct Guide;
 
 /// All built-in models.

@@ -13,6 +13,7 @@ pub mod in_space;
 pub mod masses;
 pub mod process;
 pub mod random_pairs;
+pub mod reference;
 pub mod runs;
 pub mod scenes;
 pub mod spring_pair;

@@ -30,5 +30,5 @@ pub use subsystem::{Interval, Model, StepFailure, Subsystem};
 
 /// The examples of the guide are compiled.
 #[cfg(doctest)]
-#[doc = include_str!("../../docs/workers.md")]
+#[doc = include_str!("../../docs/guide/own-worker.md")]
 pub struct Guide;

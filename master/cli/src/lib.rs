@@ -1,5 +1,6 @@
 //! The command line tool `linchpin`: runs scenes, studies them, serves the built-in models.
 //!
+//! * [`command_line`]: the arguments of the program;
 //! * [`connect`]: workers of a scene, in processes of their own or in this one;
 //! * [`simulate`]: one run;
 //! * [`closed_form`]: the exact solution of scenes that have one;
@@ -14,6 +15,7 @@
 
 pub mod animation;
 pub mod closed_form;
+pub mod command_line;
 pub mod commands;
 pub mod connect;
 pub mod diagnostics;

@@ -3,53 +3,10 @@
 use std::io::IsTerminal;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
-use linchpin::commands::{
-    CommandError, check, converge, describe, report, run, spectrum, stability, worker,
-};
+use clap::Parser;
+use linchpin::command_line::Arguments;
 use linchpin::diagnostics;
-use tracing_subscriber::filter::Targets;
 use tracing_subscriber::prelude::*;
-
-/// Couple black-box solvers by rigid joints
-#[derive(Debug, Parser)]
-#[command(
-    version,
-    propagate_version = true,
-    after_help = "Examples:
-  linchpin run scenes/oscillator.toml
-  linchpin run scenes/oscillator.toml --out /tmp/fine --set coupling.macro_step=1e-4
-  linchpin check scenes/oscillator.toml
-  linchpin worker --listen 127.0.0.1:50051
-
-Exit codes: 0 done, 1 the run failed, 2 the scene or the command line is wrong, 130 interrupted."
-)]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-
-    /// What is logged to the error output, e.g. debug or linchpin_master=trace
-    #[arg(
-        long,
-        global = true,
-        env = "LINCHPIN_LOG",
-        default_value = "warn",
-        value_name = "FILTER"
-    )]
-    log: Targets,
-}
-
-#[derive(Debug, Subcommand)]
-enum Command {
-    Run(run::Arguments),
-    Check(check::Arguments),
-    Worker(worker::Arguments),
-    Describe(describe::Arguments),
-    Converge(converge::Arguments),
-    Stability(stability::Arguments),
-    Report(report::Arguments),
-    Spectrum(spectrum::Arguments),
-}
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
@@ -58,26 +15,13 @@ fn main() -> ExitCode {
         .with_ansi(std::io::stderr().is_terminal());
     tracing_subscriber::registry()
         .with(lines)
-        .with(arguments.log)
+        .with(arguments.log().clone())
         .init();
-    match execute(&arguments.command) {
+    match arguments.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             diagnostics::show(&error, std::io::stderr().is_terminal());
             ExitCode::from(error.exit_code())
         }
-    }
-}
-
-fn execute(command: &Command) -> Result<(), CommandError> {
-    match command {
-        Command::Run(arguments) => run::execute(arguments),
-        Command::Check(arguments) => check::execute(arguments),
-        Command::Worker(arguments) => worker::execute(arguments),
-        Command::Describe(arguments) => describe::execute(arguments),
-        Command::Converge(arguments) => converge::execute(arguments),
-        Command::Stability(arguments) => stability::execute(arguments),
-        Command::Report(arguments) => report::execute(arguments),
-        Command::Spectrum(arguments) => spectrum::execute(arguments),
     }
 }

@@ -163,7 +163,7 @@ fn columns_that_are_not_compared_are_told() {
     }
 }
 
-/// Every figure of docs/studies.md has a scene that the command given there can run.
+/// Every figure of docs/evidence/studies.md has a scene that the command given there can run.
 #[test]
 fn the_scenes_of_the_figures_are_sound() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/s1");

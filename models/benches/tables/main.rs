@@ -1,6 +1,6 @@
 //! Tables 3 to 6 of S2 with our own figures beside the paper's, and speed against error beside Siconos.
 //!
-//! `cargo bench -p linchpin-models --bench tables` prints them; `-- --write` writes them to `docs/nonsmooth-tables.md`.
+//! `cargo bench -p linchpin-models --bench tables` prints them; `-- --write` writes them to `docs/evidence/nonsmooth-tables.md`.
 //! Times are the least of several runs in turn, so that other work of the machine counts little; errors and counts are
 //! the same on every machine. Siconos takes part where `python3-siconos` and a C compiler are installed.
 
@@ -17,12 +17,16 @@ mod speed;
 use std::path::Path;
 
 /// Where the tables go.
-const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/nonsmooth-tables.md");
+const DOCUMENT: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/../docs/evidence/nonsmooth-tables.md"
+);
 
 const HEAD: &str = "# Schemes for nonsmooth mechanics: cost and error
 
-Written by `cargo bench -p linchpin-models --bench tables -- --write`. S2 is Rezaei & Schindler; its figures
-stand in the columns \"paper\". The mechanism is the rigid slider-crank of its Table 1. Times are the least of several runs on one core.
+Written by `cargo bench -p linchpin-models --bench tables -- --write`. S2 is Rezaei & Schindler; its figures stand in
+the columns \"paper\". The mechanism is the rigid slider-crank of its Table 1. Times are the least of several runs on one
+core.
 ";
 
 fn main() {

@@ -84,8 +84,8 @@ fn costs() -> String {
     let sizes = [4, 10, 20, 40, 80];
     let mut text = String::from(
         "## Cost of a step over the elements of the rod\n\n\
-         Table 2 of S2, microseconds a step; dt = 1e-5 s, for Moreau and HETS 1e-9 s, which they need with 80 elements. The last\n\
-         column has six modes of 20 elements.\n\n\
+         Table 2 of S2, microseconds a step; dt = 1e-5 s, for Moreau and HETS 1e-9 s, which they need with 80 elements. The\n\
+         last column has six modes of 20 elements.\n\n\
          | scheme | 4 | 10 | 20 | 40 | 80 | 80 over 40 | six modes |\n|---|---|---|---|---|---|---|---|\n",
     );
     for (name, scheme) in SCHEMES {

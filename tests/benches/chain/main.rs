@@ -5,7 +5,7 @@
 //! * the macro step with the workers in this process and as n processes over Unix sockets;
 //! * the memory of the master after a thousand and after ten thousand macro steps.
 //!
-//! `cargo bench --workspace --bench chain` prints the tables of `docs/cost.md` and draws its picture to
+//! `cargo bench --workspace --bench chain` prints the tables of `docs/evidence/cost.md` and draws its picture to
 //! `target/chain-cost.svg`; `-- solver`, `-- steps` and `-- memory` do one part. Every time is the least of sixty short blocks, so that
 //! other work of the machine counts little.
 

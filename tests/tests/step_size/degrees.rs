@@ -1,6 +1,6 @@
 //! Degrees that follow the estimates.
 //!
-//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table_of_degrees` prints the table of docs/step-size.md.
+//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table_of_degrees` prints the table of docs/evidence/step-size.md.
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
@@ -73,7 +73,7 @@ fn an_automatic_degree_costs_no_more_than_the_best_fixed_one() {
 }
 
 #[test]
-#[ignore = "prints the table of docs/step-size.md"]
+#[ignore = "prints the table of docs/evidence/step-size.md"]
 fn table_of_degrees() {
     for scene in ALL {
         for method in METHODS {

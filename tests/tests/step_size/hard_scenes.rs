@@ -1,6 +1,6 @@
 //! `scenes/hard` against closed forms and a monolithic solution.
 //!
-//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table` prints the table of docs/step-size.md.
+//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table` prints the table of docs/evidence/step-size.md.
 
 use linchpin::connect::Place;
 use linchpin_master::cosimulation::Options;
@@ -192,7 +192,7 @@ impl Hard {
         }
     }
 
-    /// Rows of the table of docs/step-size.md.
+    /// Rows of the table of docs/evidence/step-size.md.
     fn tell(&self) {
         for coupling in METHODS {
             for tolerance in [1e-4, 1e-6, 1e-8] {
@@ -295,7 +295,7 @@ fn steps_grow_again_after_a_jump() {
 }
 
 #[test]
-#[ignore = "prints the table of docs/step-size.md"]
+#[ignore = "prints the table of docs/evidence/step-size.md"]
 fn table() {
     for scene in ALL {
         scene.tell();

@@ -1,6 +1,6 @@
 //! The tolerance is met, relative to the problem that the method solves: bodies with springs and dampers between them, or rigid joints.
 //!
-//! `cargo test --release -p linchpin-tests --test uncorrected_steps -- --ignored --nocapture table` prints the table of docs/step-size.md.
+//! `cargo test --release -p linchpin-tests --test uncorrected_steps -- --ignored --nocapture table` prints the table of docs/evidence/step-size.md.
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
@@ -180,9 +180,9 @@ fn mechanisms_against_finer_runs() {
     }
 }
 
-/// Rows of the table of docs/step-size.md: a run with variable steps, and one with as many integrations and a fixed step.
+/// Rows of the table of docs/evidence/step-size.md: a run with variable steps, and one with as many integrations and a fixed step.
 #[test]
-#[ignore = "prints the table of docs/step-size.md"]
+#[ignore = "prints the table of docs/evidence/step-size.md"]
 fn table() {
     for (method, loosest) in METHODS {
         for tolerance in [loosest, 1e-1 * loosest, 1e-2 * loosest] {

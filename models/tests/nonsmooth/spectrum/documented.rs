@@ -1,4 +1,4 @@
-//! Numbers of docs/nonsmooth-spectra.md that no other test has.
+//! Numbers of docs/evidence/nonsmooth-spectra.md that no other test has.
 
 use linchpin_models::nonsmooth::schemes::SchemeKind::{self, Bathe};
 

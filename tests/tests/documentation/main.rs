@@ -1,0 +1,13 @@
+//! The pages of the documentation: their links, their lines, their commands.
+
+#![allow(clippy::unwrap_used)]
+
+mod chapters;
+mod command;
+mod commands;
+mod lines;
+mod links;
+mod messages;
+mod page;
+mod reference;
+mod walk;
