@@ -1,11 +1,11 @@
 //! The command line: its arguments and what they start.
 
 use clap::{Parser, Subcommand};
-use tracing_subscriber::filter::Targets;
 
 use crate::commands::{
     CommandError, check, converge, describe, report, run, spectrum, stability, worker,
 };
+use crate::log::Filter;
 
 /// Couple black-box solvers by rigid joints
 #[derive(Debug, Parser)]
@@ -25,7 +25,8 @@ pub struct Arguments {
     #[command(subcommand)]
     command: Command,
 
-    /// What is logged to the error output, e.g. debug or linchpin_master=trace
+    /// What is logged to the error output: info tells the story of a run, debug every decision with its numbers; e.g. debug or
+    /// info,linchpin_master=trace,tonic=warn
     #[arg(
         long,
         global = true,
@@ -33,7 +34,7 @@ pub struct Arguments {
         default_value = "warn",
         value_name = "FILTER"
     )]
-    log: Targets,
+    log: Filter,
 }
 
 #[derive(Debug, Subcommand)]
@@ -50,7 +51,7 @@ enum Command {
 
 impl Arguments {
     /// What is logged.
-    pub fn log(&self) -> &Targets {
+    pub fn log(&self) -> &Filter {
         &self.log
     }
 

@@ -8,6 +8,7 @@
 //! * [`study`]: many runs of one scene with other settings;
 //! * [`spectra`]: stability, damping and period errors of integration schemes;
 //! * [`interrupt`]: Ctrl-C as a request to stop a run;
+//! * [`log`]: what is logged to the error output;
 //! * [`plot`]: the pictures of runs and studies;
 //! * [`animation`]: the moving mechanism as a page of its own.
 
@@ -22,8 +23,10 @@ pub mod diagnostics;
 pub mod error_norm;
 mod html;
 pub mod interrupt;
+pub mod log;
 pub mod plot;
 pub mod results;
 pub mod simulate;
 pub mod spectra;
+mod story;
 pub mod study;

@@ -5,18 +5,11 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use linchpin::command_line::Arguments;
-use linchpin::diagnostics;
-use tracing_subscriber::prelude::*;
+use linchpin::{diagnostics, log};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    let lines = tracing_subscriber::fmt::layer()
-        .with_writer(std::io::stderr)
-        .with_ansi(std::io::stderr().is_terminal());
-    tracing_subscriber::registry()
-        .with(lines)
-        .with(arguments.log().clone())
-        .init();
+    log::begin(arguments.log());
     match arguments.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

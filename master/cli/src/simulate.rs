@@ -6,6 +6,7 @@ use linchpin_master::scene::Scene;
 use linchpin_master::{CoSimulation, RunError};
 
 use crate::connect::Connector;
+use crate::story::Story;
 
 /// Gets the rows of a run.
 pub trait Recorder {
@@ -59,6 +60,7 @@ pub fn simulate<R: Recorder>(
     };
     let mut simulation = CoSimulation::start(scene, &mut connect, options)
         .map_err(|error| stopped(scene.t_start, error))?;
+    let mut story = Story::begin(scene);
     if let Some(mechanism) = simulation.mechanism() {
         let taken = recorder.mechanism(mechanism);
         taken.map_err(SimulateError::Record)?;
@@ -92,10 +94,16 @@ pub fn simulate<R: Recorder>(
                 .map_err(SimulateError::Record)?;
         }
         recorder.progress(simulation.t());
+        if let Some(story) = &mut story {
+            story.go_on(&simulation);
+        }
         if interrupt.is_requested() && !is_finished {
             let t = simulation.t();
             return Err(RunError::Interrupted { t }.into());
         }
+    }
+    if let Some(story) = &story {
+        story.end(&simulation);
     }
     Ok(simulation.statistics())
 }

@@ -125,6 +125,7 @@ fn attempt(
 }
 
 /// Corrects, and gives the time that it took.
+#[tracing::instrument(name = "correction", level = "trace", skip_all)]
 fn correct(
     method: &mut dyn Corrector,
     parts: &Parts,
@@ -157,6 +158,7 @@ pub(super) fn look_ahead(
     }
 }
 
+#[tracing::instrument(name = "look_ahead", level = "trace", skip_all, fields(t = step.start, H = step.length))]
 fn look(parts: &mut Parts, step: MacroStep, varies: bool) -> Result<(), RunError> {
     match varies {
         true => recovery::look(&mut parts.subsystems, step),

@@ -111,8 +111,18 @@ impl Renewal {
         let found = (!wanted).then(|| method.prepare_columns(parts, following));
         // A length that stays is worth columns of its own.
         let is_own = self.borrowed >= MOST_BORROWED && self.length == following.length;
-        self.off_by_length = found.flatten().filter(|off| *off == 0.0 || !is_own);
+        let found = found.flatten();
+        self.off_by_length = found.filter(|off| *off == 0.0 || !is_own);
         self.come_next = self.off_by_length.is_none();
+        if self.come_next && self.rule != Jacobian::EveryStep {
+            let because = match found {
+                _ if self.is_slow => "corrections converge slowly",
+                Some(_) => "steps keep a length without columns of its own",
+                None => "no columns at hand serve",
+            };
+            let (t, rate) = (following.start, self.rate);
+            tracing::debug!(t, H = following.length, because, rate, "Jacobian refresh");
+        }
         self.come_next
     }
 
@@ -165,6 +175,10 @@ impl Renewal {
             }
         };
         let needs_columns = self.rate.is_some_and(|rate| rate > TOO_SLOW) || self.is_out_of_reach();
+        if is_wanted && needs_columns {
+            let because = "corrections do not converge in this step";
+            tracing::debug!(because, rate = self.rate, "Jacobian refresh");
+        }
         is_wanted.then_some(needs_columns)
     }
 
@@ -198,6 +212,13 @@ impl Renewal {
             self.left_by_first = Some(rate);
         }
         self.passes.count += 1;
+        tracing::debug!(
+            pass = self.passes.count,
+            change = change.of_size,
+            rate,
+            with_columns,
+            "corrected again"
+        );
         self.passes.rate = Some(rate);
         self.passes.with_columns |= with_columns;
         self.last = change;

@@ -43,6 +43,12 @@ impl CoSimulation {
         let Some(step) = self.plan.step() else {
             return Ok(false);
         };
+        let _span = tracing::debug_span!(
+            "macro_step",
+            number = self.plan.steps_done() + 1,
+            t = step.start
+        )
+        .entered();
         let started = Instant::now();
         let (parts, plan) = (&mut self.parts, &mut self.plan);
         let step_size = self.step_size.as_mut();

@@ -150,6 +150,8 @@ fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem
             subsystem: subsystem.name.clone(),
             source: Box::new(source),
         })?;
+        let (name, model) = (&subsystem.name, &subsystem.model);
+        tracing::debug!(subsystem = name, model, "connected");
         Ok(Subsystem::new(&subsystem.name, connection))
     };
     scene.subsystems.iter().map(connect_one).collect()

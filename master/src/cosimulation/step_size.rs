@@ -212,7 +212,9 @@ impl StepSize {
                 false
             }
         };
-        Ok(Repetition { length, has_jumped })
+        let repetition = Repetition { length, has_jumped };
+        log_rejection(step, kind, &error, repetition);
+        Ok(repetition)
     }
 
     /// Whether the multipliers change hardly less in the present attempt at a step than in the one before, which was longer.
@@ -254,10 +256,15 @@ impl StepSize {
         self.is_repeated = false;
         self.rejected = None;
         self.statistics.accept(step);
-        match wish == step.length {
+        let next = match wish == step.length {
             true => wish,
             false => self.allowed(wish),
+        };
+        if self.varies() {
+            let (error, order) = (estimate.scaled, estimate.order);
+            tracing::debug!(H = step.length, error, order, next_H = next, "accepted");
         }
+        next
     }
 
     /// The longest allowed length that is no longer than this one.
@@ -275,6 +282,28 @@ impl StepSize {
     /// Takes the outputs at the macro point that is reached.
     pub fn observe(&mut self, parts: &Parts) {
         self.scales.observe(parts);
+    }
+}
+
+/// Why a step is repeated, and how.
+fn log_rejection(step: MacroStep, kind: Kind, error: &RunError, repetition: Repetition) {
+    let (tried, next) = (step.length, repetition.length);
+    match (kind, error) {
+        (Kind::Error { found, .. }, RunError::LeastStep { variable, .. }) => {
+            tracing::debug!(
+                H = tried,
+                error = found.scaled,
+                order = found.order,
+                of = variable,
+                next_H = next,
+                has_jumped = repetition.has_jumped,
+                "rejected: error above tolerance"
+            );
+        }
+        (Kind::NotConverged(_), because) => {
+            tracing::debug!(H = tried, next_H = next, %because, "rejected: not converged");
+        }
+        (_, because) => tracing::debug!(H = tried, next_H = next, %because, "rejected: failed"),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::degree_choice::{DegreeChoice, MOST_GROWTH, Prospects, Purpose};
+use super::degree_choice::{DegreeChoice, MOST_GROWTH, Prospect, Prospects, Purpose};
 use crate::layout::Layout;
 use crate::results::StepDegrees;
 use crate::scene::{Method, highest_stable_degree};
@@ -138,6 +138,19 @@ impl AutomaticDegrees {
             group.next = group.choice;
             group.next.follow(&prospects, highest, purpose);
             let next = group.next.degree();
+            if next != group.degree() {
+                let error = |prospect: Option<Prospect>| prospect.map(|prospect| prospect.scaled);
+                tracing::debug!(
+                    of = ?group.kind,
+                    from = group.degree(),
+                    to = next,
+                    highest,
+                    error = error(prospects.present),
+                    error_lower = error(prospects.lower),
+                    error_higher = error(prospects.higher),
+                    "degree changes"
+                );
+            }
             if next != group.degree() && next < prospects.smooth_points {
                 changed[group.kind as usize] = Some(next);
             }

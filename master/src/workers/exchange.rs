@@ -5,6 +5,7 @@ use crate::error::RunError;
 use crate::time::MacroStep;
 
 /// Sends every subsystem its request, then takes all answers: the workers compute at the same time.
+#[tracing::instrument(level = "trace", skip_all)]
 pub(crate) fn exchange(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
     for subsystem in &mut *subsystems {
         subsystem.post(step)?;

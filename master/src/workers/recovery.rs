@@ -12,6 +12,7 @@ use crate::time::MacroStep;
 
 /// A look-ahead of all subsystems, without an advance. All answers are taken, so that the next request may follow whatever came; a
 /// failure that a shorter step does not cure is told before others.
+#[tracing::instrument(name = "exchange", level = "trace", skip_all)]
 pub(crate) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
     for subsystem in &mut *subsystems {
         subsystem.post(step)?;
@@ -30,6 +31,7 @@ pub(crate) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), 
 
 /// The advance of all subsystems over `step`, and the look-ahead over the following one: gives what came between, if that was the
 /// look-ahead alone.
+#[tracing::instrument(name = "exchange", level = "trace", skip_all)]
 pub(crate) fn advance(
     subsystems: &mut [Subsystem],
     step: MacroStep,

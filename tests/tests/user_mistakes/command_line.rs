@@ -91,7 +91,16 @@ fn commands_and_flags_that_do_not_exist() {
         .fails(2, &["<SCENE>", "linchpin run"]);
     workshop
         .run(&["--log", "linchpin=loud", "check", "scene.toml"])
-        .fails(2, &["--log"]);
+        .fails(
+            2,
+            &["--log", "\"loud\"", "off, error, warn, info, debug, trace"],
+        );
+    workshop
+        .run(&["--log", "info,linchpn_master=debug", "check", "scene.toml"])
+        .fails(
+            2,
+            &["--log", "\"linchpn_master\"", "linchpin_master", "tonic"],
+        );
 }
 
 #[test]
