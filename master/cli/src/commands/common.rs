@@ -63,9 +63,10 @@ impl OutputArguments {
         Ok(folder)
     }
 
-    /// Whether a progress bar may be shown.
+    /// Whether a progress bar may be shown: not between the lines of a log, which tells the progress itself.
     pub fn shows_progress(&self) -> bool {
-        !self.quiet && std::io::stderr().is_terminal()
+        let is_logged = tracing::enabled!(tracing::Level::INFO);
+        !self.quiet && !is_logged && std::io::stderr().is_terminal()
     }
 }
 
