@@ -47,6 +47,22 @@ impl Row {
     }
 }
 
+/// The numbers of a row's columns, but for a share of the largest that these columns have in the run.
+#[track_caller]
+pub fn assert_near(run: &[Row], row: &Row, columns: &[&str], own: &[f64], tolerance: f64) {
+    let values = run.iter().flat_map(|row| row.list(columns));
+    let largest = values.fold(0.0, |a: f64, b| a.max(b.abs()));
+    for (column, own) in columns.iter().zip(own) {
+        let golden = row.get(column);
+        assert!(
+            (own - golden).abs() <= tolerance * largest,
+            "{} {:?}: {column} = {own:e}, golden {golden:e}, largest {largest:e}",
+            row.name,
+            row.numbers,
+        );
+    }
+}
+
 /// All rows of a file; lines with # are comments.
 pub fn rows(file: &str) -> Vec<Row> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/golden/s2");

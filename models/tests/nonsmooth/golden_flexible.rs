@@ -16,7 +16,7 @@ use linchpin_models::nonsmooth::systems::rod::modes::lowest;
 use linchpin_models::nonsmooth::systems::rod::{Rectangle, Reference, RotaryInertia};
 use serde_json::Value;
 
-use super::golden::{Row, rows, runs};
+use super::golden::{Row, assert_near, rows, runs};
 use super::stand::{AS_PRINTED, Stand};
 
 /// Young's modulus (N/m^2) and density (kg/m^3) of the golden files.
@@ -262,21 +262,6 @@ fn compare_runs(file: &str, system: &FlexibleSliderCrank, v: [f64; 3]) {
         assert_eq!(log.impacts as f64, last.get("nimp_total"));
         let first = log.first_impact.unwrap_or(-1.0);
         assert!((first - last.get("first_impact_t")).abs() < 1e-9);
-    }
-}
-
-fn assert_near(run: &[Row], row: &Row, columns: &[&str], own: &[f64], tolerance: f64) {
-    let values = run.iter().flat_map(|row| row.list(columns));
-    let largest = values.fold(0.0, |a: f64, b| a.max(b.abs()));
-    for (column, own) in columns.iter().zip(own) {
-        let golden = row.get(column);
-        assert!(
-            (own - golden).abs() <= tolerance * largest,
-            "{} rho {} t {}: {column} = {own:e}, golden {golden:e}, largest {largest:e}",
-            row.name,
-            row.get("rho"),
-            row.get("t"),
-        );
     }
 }
 

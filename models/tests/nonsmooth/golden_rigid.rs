@@ -6,7 +6,7 @@ use linchpin_models::nonsmooth::schemes::SchemeKind;
 use linchpin_models::nonsmooth::systems::notch::CornerLaw;
 use linchpin_models::nonsmooth::systems::rigid_slider_crank::{Guide, Mechanism, RigidSliderCrank};
 
-use super::golden::{Row, rows, runs};
+use super::golden::{Row, assert_near, rows, runs};
 use super::stand::{AS_PRINTED, Stand};
 
 const Q: [&str; 3] = ["theta1", "theta2", "theta3"];
@@ -58,22 +58,6 @@ fn force_tolerance(scheme: SchemeKind) -> f64 {
     match scheme {
         SchemeKind::GeneralizedAlpha { rho_inf: 1.0 } => 2e-6,
         _ => 1e-7,
-    }
-}
-
-fn assert_near(run: &[Row], row: &Row, columns: &[&str], own: &[f64], tolerance: f64) {
-    let values = run.iter().flat_map(|row| row.list(columns));
-    let largest = values.fold(0.0, |a: f64, b| a.max(b.abs()));
-    for (column, own) in columns.iter().zip(own) {
-        let golden = row.get(column);
-        assert!(
-            (own - golden).abs() <= tolerance * largest,
-            "{} rho {} dt {} t {}: {column} = {own:e}, golden {golden:e}",
-            row.name,
-            row.get("rho"),
-            row.get("dt"),
-            row.get("t"),
-        );
     }
 }
 
