@@ -13,14 +13,8 @@ use tracing_subscriber::prelude::*;
 /// Target of everything that Linchpin itself logs: the names of its crates begin with it.
 const ALL_OF_OURS: &str = "linchpin";
 
-/// The crates of Linchpin.
-const OURS: [&str; 5] = [
-    ALL_OF_OURS,
-    "linchpin_master",
-    "linchpin_models",
-    "linchpin_proto",
-    "linchpin_worker",
-];
+/// The crates of Linchpin that log.
+const OURS: [&str; 3] = [ALL_OF_OURS, "linchpin_master", "linchpin_worker"];
 
 /// Libraries that log what they do for messages between master and workers.
 const LIBRARIES: [&str; 4] = ["h2", "hyper_util", "tonic", "tower"];
@@ -155,7 +149,12 @@ mod tests {
             let error = level.parse::<Filter>().unwrap_err();
             assert!(matches!(error, FilterError::Level(_)), "{level}: {error}");
         }
-        for target in ["linchpn=info", "=info", "info,serde=debug"] {
+        for target in [
+            "linchpn=info",
+            "=info",
+            "info,serde=debug",
+            "linchpin_proto=info",
+        ] {
             let error = target.parse::<Filter>().unwrap_err();
             assert!(matches!(error, FilterError::Target(_)), "{target}: {error}");
         }
