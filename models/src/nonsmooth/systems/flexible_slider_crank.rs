@@ -260,11 +260,7 @@ impl MechanicalSystem for FlexibleSliderCrank {
 
     fn gaps(&self, q: &[f64], gaps: &mut [f64]) {
         let [_, y] = self.slider(q);
-        match self.guide {
-            Guide::Clearance(_) => gaps.copy_from_slice(&self.mechanism.notch.gaps(y, q[2])),
-            Guide::Bilateral { .. } => gaps.copy_from_slice(&[y, q[2]]),
-            Guide::Free => {}
-        }
+        self.guide.gaps(&self.mechanism.notch, y, q[2], gaps);
     }
 
     fn directions(&self, q: &[f64], rows: &mut [f64]) {

@@ -71,6 +71,16 @@ impl Guide {
             Self::Free => Vec::new(),
         }
     }
+
+    /// Gaps (m) of the corners in `notch`, or what the two constraints hold at 0 (m, rad), at a height (m) and an angle
+    /// (rad) of the slider.
+    pub fn gaps(self, notch: &Notch, height: f64, angle: f64, gaps: &mut [f64]) {
+        match self {
+            Self::Clearance(_) => gaps.copy_from_slice(&notch.gaps(height, angle)),
+            Self::Bilateral { .. } => gaps.copy_from_slice(&[height, angle]),
+            Self::Free => {}
+        }
+    }
 }
 
 impl Mechanism {
@@ -193,11 +203,7 @@ impl MechanicalSystem for RigidSliderCrank {
 
     fn gaps(&self, q: &[f64], gaps: &mut [f64]) {
         let [_, y] = self.slider(q);
-        match self.guide {
-            Guide::Clearance(_) => gaps.copy_from_slice(&self.mechanism.notch.gaps(y, q[2])),
-            Guide::Bilateral { .. } => gaps.copy_from_slice(&[y, q[2]]),
-            Guide::Free => {}
-        }
+        self.guide.gaps(&self.mechanism.notch, y, q[2], gaps);
     }
 
     fn directions(&self, q: &[f64], rows: &mut [f64]) {
