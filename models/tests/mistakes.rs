@@ -181,12 +181,6 @@ fn descriptions_name_only_what_they_have() {
             {
                 assert!(own == 0 || own == whole, "{} {}", model.name, marker.name);
             }
-            if let Some(spring) = &marker.spring {
-                assert!(inputs.contains(&&spring.partner_position));
-                assert!(inputs.contains(&&spring.partner_velocity));
-                assert!(parameters.contains(&&spring.stiffness));
-                assert!(parameters.contains(&&spring.damping));
-            }
         }
         for state in &model.states {
             assert!(outputs.contains(&&state.output) && parameters.contains(&&state.initial));

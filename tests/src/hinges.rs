@@ -70,6 +70,5 @@ fn marker(name: &str) -> v1::Marker {
         velocity: signals(["vx", "vy", "rate"]),
         acceleration: signals(["ax", "ay", "alpha"]),
         load: signals(["fx", "fy", "moment"]),
-        spring: None,
     }
 }

@@ -65,7 +65,7 @@ fn errors(trajectory: &Trajectory) -> [f64; 3] {
 /// bodies turn meanwhile falsifies the columns. With a tolerance of 1e-8 and such increments the velocities were off by 4e-2.
 #[test]
 fn hermite_coupling_meets_its_conditions_at_any_tolerance_of_the_solver() {
-    for variant in ["apv", "c0pv", "c0pva", "av"] {
+    for variant in ["apv", "c0pv"] {
         let coupling = format!("method=hermite variant={variant} macro_step=1.25e-3");
         let largest = |solver: &str| {
             let scene = with_settings(SCENE, &coupling, &[solver, "scene.t_end=0.2"]);
@@ -100,11 +100,7 @@ const LONG_STEPS: [f64; 3] = [2e-2, 1e-2, 5e-3];
 
 #[test]
 fn orders_of_hermite_coupling() {
-    let cases = [
-        ("hermite variant=apv jacobian=every-step", [5.0, 5.0, 5.0]),
-        ("hermite variant=c0v jacobian=every-step", [4.0, 4.0, 2.0]),
-        ("hermite variant=c0pva jacobian=every-step", [6.0, 6.0, 6.0]),
-    ];
+    let cases = [("hermite variant=apv jacobian=every-step", [5.0, 5.0, 5.0])];
     assert_all_orders(&cases, &LONG_STEPS, |coupling, h| {
         errors(&trajectory(coupling, h))
     });

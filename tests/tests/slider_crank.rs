@@ -74,11 +74,7 @@ fn the_start_is_that_of_the_paper() {
 #[test]
 fn orders_of_hermite_coupling() {
     let steps = [2e-2, 1.4e-2, 1e-2];
-    for (variant, least) in [
-        ("apv", [5.0, 5.0, 4.5]),
-        ("c0v", [4.0, 4.0, 2.0]),
-        ("c0pva", [5.0, 5.0, 4.5]),
-    ] {
+    for (variant, least) in [("apv", [5.0, 5.0, 4.5]), ("c0pv", [4.0, 4.0, 2.0])] {
         let coupling = format!("hermite variant={variant} jacobian=every-step");
         let errors = steps.map(|h| errors(&trajectory(&coupling, h)));
         assert_least_orders(&coupling, &steps, &errors, least);

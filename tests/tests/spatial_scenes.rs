@@ -141,7 +141,7 @@ fn largest_difference(found: &[f64], exact: impl ExactSizeIterator<Item = f64>) 
 
 /// A coupling, the least orders of angles, pose, load, energy, and the smallest macro step of three. With k = 2 the
 /// multipliers fall to the noise of the solvers, divided by H^2, at once; with Hermite coupling that of the tilted hinge does.
-const COUPLINGS: [(&str, [f64; 4], f64); 6] = [
+const COUPLINGS: [(&str, [f64; 4], f64); 5] = [
     (
         "method=hermite variant=apv jacobian=every-step",
         [5.0, 5.0, 3.9, 4.9],
@@ -151,11 +151,6 @@ const COUPLINGS: [(&str, [f64; 4], f64); 6] = [
         "method=hermite variant=apv jacobian=every-step loads=master",
         [5.0, 5.0, 3.9, 4.7],
         5e-3,
-    ),
-    (
-        "method=hermite variant=c0pva jacobian=every-step",
-        [5.0, 5.0, 5.0, 5.0],
-        1e-2,
     ),
     ("degree=1 exchanged_degree=2", [3.0, 3.0, 2.0, 3.0], 5e-4),
     (

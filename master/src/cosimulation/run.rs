@@ -8,7 +8,6 @@ use super::mechanism::Mechanism;
 use super::renewal::Renewal;
 use super::scheme::Scheme;
 use super::step_size::StepSize;
-use super::uncorrected::Ceiling;
 use super::{corrected, uncorrected};
 use crate::error::RunError;
 use crate::results::{Guard, Row, Statistics};
@@ -23,7 +22,6 @@ pub struct CoSimulation {
     pub(super) plan: TimePlan,
     /// Present if the macro step or the degrees follow the error.
     pub(super) step_size: Option<StepSize>,
-    pub(super) ceiling: Ceiling,
     pub(super) row: Row,
     /// For samples inside the last macro step.
     pub(super) sample_row: Row,
@@ -62,8 +60,7 @@ impl CoSimulation {
                 step_size,
             )?,
             Scheme::Uncorrected(method) => {
-                let steps = step_size.map(|steps| (steps, &mut self.ceiling));
-                uncorrected::macro_step(&mut **method, parts, plan, step, steps)?
+                uncorrected::macro_step(&mut **method, parts, plan, step)?
             }
         };
         let step = outcome.step;

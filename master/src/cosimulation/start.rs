@@ -1,6 +1,6 @@
 //! From a scene to a co-simulation at its first macro point.
 
-use linchpin_proto::v1::{self, value::Kind};
+use linchpin_proto::v1;
 use nalgebra::UnitQuaternion;
 
 use super::corrected::look_ahead;
@@ -16,7 +16,6 @@ use super::step_size::{StepSize, plan_of, step_size_of};
 use super::tie::{
     connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
 };
-use super::uncorrected::Ceiling;
 use super::{panels, penalty, velocities};
 use crate::coupling::automatic_degrees::AutomaticDegrees;
 use crate::coupling::columns::{Basis, Measuring};
@@ -26,11 +25,10 @@ use crate::coupling::explicit::Explicit;
 use crate::coupling::hermite::Hermite;
 use crate::coupling::penalty::{Penalty, write_loads};
 use crate::coupling::semi_implicit::SemiImplicit;
-use crate::coupling::springs::Springs;
 use crate::error::RunError;
-use crate::layout::{Coupled, Layout, MarkedJoint, springs_at};
+use crate::layout::{Coupled, Layout};
 use crate::results::{Guard, Row, Statistics, StepDegrees};
-use crate::scene::{self, Coupling, Degree, Jacobian, Method, Order, Scene, Spring};
+use crate::scene::{self, Coupling, Degree, Jacobian, Method, Scene};
 use crate::signal::{History, Variables};
 use crate::time::{MacroStep, TimePlan, at_start};
 use crate::workers::{Parts, Samples, Subsystem};
@@ -60,9 +58,7 @@ impl CoSimulation {
             record_markers(&models, &layout.outputs, &mut recorded);
         }
         let mut requests: Vec<_> = (0..subsystems.len())
-            .map(|number| {
-                initialize_request(scene, number, &models, &joints, &layout, &recorded[number])
-            })
+            .map(|number| initialize_request(scene, number, &models, &layout, &recorded[number]))
             .collect();
         let mut refusals = Refusals::default();
         for (number, subsystem) in subsystems.iter_mut().enumerate() {
@@ -107,9 +103,7 @@ impl CoSimulation {
             .then(|| Mechanism::new(scene, &models, &joints, row.columns()));
         let guard = match &scene.coupling.method {
             _ if options.watch_nothing => Guard::off(),
-            Method::Penalty { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
-                Guard::of_springs()
-            }
+            Method::Penalty { .. } => Guard::of_springs(),
             _ => Guard::of_rigid_joints(),
         };
         let mut statistics = Statistics::new(&parts.layout);
@@ -121,7 +115,6 @@ impl CoSimulation {
             renewal: Renewal::new(&scene.coupling),
             plan,
             step_size,
-            ceiling: Ceiling::new(),
             sample_row: row.clone(),
             multipliers: vec![0.0; multipliers],
             last_length: 0.0,
@@ -167,15 +160,6 @@ fn names(scene: &Scene) -> Vec<&str> {
 fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
     let method = &scene.coupling.method;
     let layout = match method {
-        Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
-            if let Some(connection) = scene.connections.first() {
-                let key = format!("connection.{}", connection.name);
-                let message = "jacobi and gauss-seidel connect no signals";
-                let help = "choose coupling.method = \"weighted\", \"baumgarte\" or \"explicit\"";
-                return Err(scene.error(&key, message, Some(help.into())).into());
-            }
-            Layout::with_springs(coupled)
-        }
         Method::Hermite { .. } => Layout::with_rates(coupled, level_of(method)),
         _ => Layout::new(coupled, level_of(method)),
     };
@@ -194,9 +178,6 @@ fn initial_state(
 ) -> Result<InitialState, RunError> {
     let accepts_open = options.accept_open_joints;
     match scene.coupling.method {
-        Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
-            Ok(InitialState::at_rest(3 * parts.layout.rows.len()))
-        }
         _ if options.established.is_some() => Ok(InitialState::at_rest(parts.layout.variables())),
         Method::Penalty { .. } => InitialState::unloaded(scene, parts, accepts_open),
         _ => InitialState::find(scene, coupled, parts, accepts_open),
@@ -248,16 +229,13 @@ fn initialize_request(
     scene: &Scene,
     number: usize,
     models: &[v1::Model],
-    joints: &[MarkedJoint],
     layout: &Layout,
     recorded: &[String],
 ) -> v1::InitializeRequest {
     let written = &scene.subsystems[number];
-    let mut parameters = written.parameters.clone();
-    parameters.extend(spring_parameters(&scene.coupling.method, number, joints));
     v1::InitializeRequest {
         model: models[number].name.clone(),
-        parameters,
+        parameters: written.parameters.clone(),
         solver: written.solver.clone(),
         t_start: scene.t_start,
         inputs: input_names(layout, number, false),
@@ -273,31 +251,6 @@ fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<St
     let inputs = layout.inputs_of(number).iter();
     let inputs = inputs.filter(|input| input.is_joint_input == are_joint_inputs);
     inputs.map(|input| input.name.clone()).collect()
-}
-
-/// Stiffness and damping of the penalty springs that sit in subsystem `number`.
-fn spring_parameters(
-    method: &Method,
-    number: usize,
-    joints: &[MarkedJoint],
-) -> Vec<(String, v1::Value)> {
-    let (Method::Jacobi { stiffness, damping } | Method::GaussSeidel { stiffness, damping }) =
-        method
-    else {
-        return Vec::new();
-    };
-    let ends = joints.iter().map(|joint| &joint.ends[0]);
-    let mut parameters = Vec::new();
-    for (a, marker) in ends.filter(|(a, _)| *a == number) {
-        let springs = springs_at(joints, *a, marker);
-        if let Some(spring) = &marker.spring {
-            for (name, value) in [(&spring.stiffness, stiffness), (&spring.damping, damping)] {
-                let kind = Some(Kind::Number(springs * value));
-                parameters.push((name.clone(), v1::Value { kind }));
-            }
-        }
-    }
-    parameters
 }
 
 /// Makes the method of the scene and lets it look ahead over the first macro step.
@@ -338,12 +291,7 @@ fn begin(
         Method::Explicit { mu } => {
             let history = History::new(variables, &values, attitudes);
             let mut method = Explicit::new(mu, coupling.increment, history, parts);
-            let mut first = first_step(plan);
-            if coupling.step_control.is_some() {
-                // Whatever becomes of the first step, the start is the same.
-                first.length = coupling.macro_step;
-            }
-            method.begin(parts, first)?;
+            method.begin(parts, first_step(plan))?;
             return Ok(Scheme::Uncorrected(Box::new(method)));
         }
         Method::Penalty {
@@ -357,16 +305,6 @@ fn begin(
             let history = history_of(scene, options, variables, &values, attitudes);
             let degree = coupling.exchanged_degree.highest();
             let method = Penalty::new(order, springs, history, degree, parts);
-            return Ok(Scheme::Uncorrected(Box::new(method)));
-        }
-        Method::Jacobi { stiffness, damping } => {
-            let spring = Spring { stiffness, damping };
-            let method = Springs::new(Order::Jacobi, spring, coupling.degree.highest(), parts);
-            return Ok(Scheme::Uncorrected(Box::new(method)));
-        }
-        Method::GaussSeidel { stiffness, damping } => {
-            let spring = Spring { stiffness, damping };
-            let method = Springs::new(Order::GaussSeidel, spring, coupling.degree.highest(), parts);
             return Ok(Scheme::Uncorrected(Box::new(method)));
         }
     };

@@ -95,11 +95,11 @@ pub(super) struct Repetition {
 }
 
 impl StepSize {
-    /// From a first step of length `first` in a run over `span` s, at a start whose outputs are known.
-    fn new(rule: Rule, control: StepControl, first: f64, span: f64, parts: &Parts) -> Self {
+    /// From a first step of length `first`, at a start whose outputs are known.
+    fn new(rule: Rule, control: StepControl, first: f64, parts: &Parts) -> Self {
         Self {
             rule,
-            scales: ErrorScales::new(&control, span, parts),
+            scales: ErrorScales::new(&control, parts),
             control,
             first,
             before: 1.0,
@@ -334,6 +334,5 @@ pub(super) fn step_size_of(scene: &Scene, options: &Options, parts: &Parts) -> O
         (Some(control), Some(_)) => (Rule::Given, control),
         (None, _) => (Rule::Equal, ANY_ERROR),
     };
-    let (first, span) = (scene.coupling.macro_step, scene.t_end - scene.t_start);
-    Some(StepSize::new(rule, control, first, span, parts))
+    Some(StepSize::new(rule, control, coupling.macro_step, parts))
 }

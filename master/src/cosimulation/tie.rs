@@ -258,10 +258,6 @@ pub(super) fn refuse_marker(scene: &Scene, lacks: MarkerLacks) -> RunError {
             "an input for the joint's load",
             "the worker must describe one",
         ),
-        Lack::Spring => (
-            "a spring-damper to a partner, which jacobi and gauss-seidel need at end a",
-            "exchange the ends of the joint, or choose a rigid coupling method",
-        ),
     };
     let message = format!("the marker of subsystem \"{subsystem}\" does not offer {what}");
     scene

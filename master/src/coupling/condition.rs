@@ -72,9 +72,7 @@ pub fn level_of(method: &Method) -> Level {
         },
         Method::Hermite { variant } => variant.level(),
         Method::Explicit { .. } => Level::Acceleration,
-        Method::Penalty { .. } | Method::Jacobi { .. } | Method::GaussSeidel { .. } => {
-            Level::Velocity
-        }
+        Method::Penalty { .. } => Level::Velocity,
     }
 }
 

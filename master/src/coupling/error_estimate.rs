@@ -83,7 +83,6 @@ impl Estimate {
 pub struct ErrorScales {
     relative: f64,
     absolute: f64,
-    span: f64,
     sizes: Vec<Size>,
     /// For each subsystem the error that its solver allows itself: less cannot be told.
     solvers: Vec<f64>,
@@ -106,8 +105,8 @@ struct Watched {
 }
 
 impl ErrorScales {
-    /// For the quantities of `layout`, at a start whose outputs are known, in a run over `span` s.
-    pub fn new(control: &StepControl, span: f64, parts: &Parts) -> Self {
+    /// For the quantities of `layout`, at a start whose outputs are known.
+    pub fn new(control: &StepControl, parts: &Parts) -> Self {
         let layout = &parts.layout;
         let watched = layout
             .outputs
@@ -116,7 +115,6 @@ impl ErrorScales {
         let mut scales = Self {
             relative: control.tolerance,
             absolute: control.absolute_tolerance,
-            span,
             sizes: Vec::new(),
             solvers: parts
                 .subsystems
@@ -181,24 +179,6 @@ impl ErrorScales {
                 watched.last = value;
             }
         }
-    }
-
-    /// How long the run is, in s.
-    pub fn span(&self) -> f64 {
-        self.span
-    }
-
-    /// The longest path so far, in sizes.
-    pub fn longest_path(&self) -> f64 {
-        let paths = self.sizes.iter().map(|size| size.path);
-        paths.fold(0.0, f64::max)
-    }
-
-    /// What a coupling output counts for large: its size so far, and what the absolute tolerance takes every motion for at least.
-    pub fn size_of_output(&self, subsystem: usize, output: usize) -> f64 {
-        let watched = self.watched[subsystem][output];
-        let largest = watched.map_or(0.0, |watched| self.sizes[watched.size].largest);
-        self.absolute / self.relative + largest
     }
 
     /// The error that is allowed of a coupling output.

@@ -4,10 +4,8 @@ use std::time::{Duration, Instant};
 
 use super::columns::{Basis, Columns, Look, Measuring};
 use super::condition::{Condition, check_finite};
-use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::uncorrected::{Uncorrected, add_exchanged_errors};
+use super::uncorrected::Uncorrected;
 use crate::error::RunError;
-use crate::joint::Level;
 use crate::layout::Over;
 use crate::scene::{Formula, Increment};
 use crate::signal::{Curve, History, Lagrange};
@@ -19,17 +17,12 @@ use crate::workers::{Ahead, Parts, exchange};
 
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so a look-ahead of zero length suffices
-/// and with a fixed macro step none is repeated.
-///
-/// Error of a step: with held multipliers `g''` is off by half of what their change over the step makes of it, in the mean. The equation in
-/// `g` takes that for a displacement of the joint by `mu^2` times as much, to which the joint closes.
+/// and no macro step is repeated.
 pub struct Explicit {
     mu: Formula,
     history: History,
     rows: usize,
     change: Vec<f64>,
-    /// What the change makes of `g''`.
-    shift: Vec<f64>,
     values: Vec<f64>,
     /// Multipliers of the last step that was taken.
     held: Vec<f64>,
@@ -56,7 +49,6 @@ impl Explicit {
             mu,
             rows: parts.layout.rows.len(),
             change: vec![0.0; size],
-            shift: vec![0.0; size],
             values: history.newest().to_vec(),
             held: vec![0.0; parts.layout.rows.len()],
             history,
@@ -147,30 +139,6 @@ impl Uncorrected for Explicit {
         let started = Instant::now();
         self.solve(parts, step)?;
         Ok(started.elapsed())
-    }
-
-    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
-        let mut estimate = Estimate::NONE;
-        let layout = &parts.layout;
-        let closing = self.mu.at(step.length).max(step.length);
-        let order = if self.mu.follows_steps() { 3 } else { 1 };
-        self.system
-            .shift(Level::Acceleration, &self.change, &mut self.shift);
-        for (row, (shift, change)) in self
-            .shift
-            .iter()
-            .zip(&self.change)
-            .take(self.rows)
-            .enumerate()
-        {
-            let displaced = 0.5 * closing * closing * shift;
-            let scaled = displaced.abs() / scales.allowed_of_opening(layout, row);
-            estimate.add(scaled, order, Suspect::Opening(row));
-            estimate.change = estimate.change.max(change.abs());
-        }
-        let curves = [self.history.newest(), &self.values];
-        add_exchanged_errors(layout, &self.history, curves, step, scales, &mut estimate);
-        estimate
     }
 
     fn move_on(&mut self, step: MacroStep) {

@@ -7,10 +7,9 @@
 //! * [`degree_choice`], [`automatic_degrees`]: degrees of polynomials that follow the estimates;
 //! * [`corrector`]: what a predictor/corrector method does in a macro step;
 //! * [`uncorrected`]: what a method without a corrector does in a macro step;
-//! * [`unbalanced`]: errors of positions by loads that act on one end of a joint only;
 //! * [`shortfall`]: what corrections with kept columns miss, foreseen;
 //! * [`promise`]: what a correction promises, and what the workers make of it;
-//! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`], [`springs`]: one macro step of each family of methods.
+//! * [`semi_implicit`], [`hermite`], [`explicit`], [`penalty`]: one macro step of each family of methods.
 
 pub mod attempts;
 pub mod automatic_degrees;
@@ -27,6 +26,4 @@ pub mod position_error;
 pub mod promise;
 pub mod semi_implicit;
 pub mod shortfall;
-pub mod springs;
-pub mod unbalanced;
 pub mod uncorrected;

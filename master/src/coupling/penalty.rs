@@ -3,25 +3,18 @@
 //! A spring and a damper stand in place of every condition `g` of a joint. At each macro point the multiplier is their load,
 //! `lambda = -s (K g + D g')`, with `s` the [`load_power`](crate::joint::Condition::load_power) of the condition, so that a
 //! condition that is open is pulled shut; exchanged variables are what the outputs show, `w = y`. All are extrapolated
-//! over the next step through their past values, and with a fixed macro step none is repeated.
+//! over the next step through their past values, and no macro step is repeated.
 //!
 //! Jacobi: all subsystems step at once. Gauss-Seidel: one after the other in the order of the scene; the end values of
 //! the coupling variables follow from the outputs of those that have stepped and the extrapolated outputs of the others,
 //! and the inputs are interpolated through them.
-//!
-//! Error of a step: the load `lambda_e` that was used solves the equations exactly for a spring whose ends are displaced by `(lambda_e -
-//! lambda) / K`. The difference at the end of the step is known when the workers have taken it; its mean over the step follows from
-//! the nodes of the extrapolation. With Gauss-Seidel the end that steps later feels another load, and what it feels more is
-//! [unbalanced](super::unbalanced).
 
 use std::ops::Range;
 
 use std::time::Duration;
 
 use super::condition::check_finite;
-use super::error_estimate::{ErrorScales, Estimate, Suspect};
-use super::unbalanced::{Loads, Unbalanced};
-use super::uncorrected::{Uncorrected, add_exchanged_errors, displacement};
+use super::uncorrected::Uncorrected;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{Layout, Over, Row};
@@ -47,12 +40,6 @@ struct Sequence {
     /// At the end of the step: extrapolated until the subsystem has stepped.
     ends: Vec<f64>,
     places: Vec<Range<usize>>,
-    /// For each row the load at the end of the step under which the subsystem at its later end has stepped.
-    later: Vec<f64>,
-    /// Errors of the loads of each row at its ends.
-    errors: Vec<[f64; 2]>,
-    /// Present if steps vary.
-    unbalanced: Option<Unbalanced>,
 }
 
 impl Penalty {
@@ -96,7 +83,6 @@ impl Penalty {
         }
         for number in 0..parts.subsystems.len() {
             self.request_advance(parts, number, step);
-            self.note_later_loads(&parts.layout, number);
             exchange(&mut parts.subsystems[number..=number], step)?;
             let Some(mut sequence) = self.sequence.take() else {
                 return Ok(());
@@ -130,47 +116,6 @@ impl Penalty {
         }
     }
 
-    /// Adds the errors by what the later end of every joint felt more than the first; the extrapolated variables stand in the memory.
-    fn add_unbalanced(
-        &mut self,
-        parts: &Parts,
-        step: MacroStep,
-        scales: &ErrorScales,
-        estimate: &mut Estimate,
-    ) {
-        let Some(sequence) = &mut self.sequence else {
-            return;
-        };
-        let Some(unbalanced) = &mut sequence.unbalanced else {
-            return;
-        };
-        let mut order = 1;
-        for (row, errors) in sequence.errors.iter_mut().enumerate() {
-            let more = sequence.later[row] - self.memory[row];
-            let miss = self.history.end_miss(row, step.length);
-            errors[later_end(&parts.layout, row)] = miss.mean * more;
-            order = self.history.extrapolation_miss(row, step.length).order;
-        }
-        let loads = Loads {
-            values: &self.ends,
-            attitudes: self.history.attitudes(),
-            errors: &sequence.errors,
-            order,
-        };
-        unbalanced.estimate(parts, step, loads, scales, estimate);
-    }
-
-    fn note_later_loads(&mut self, layout: &Layout, number: usize) {
-        let Some(sequence) = &mut self.sequence else {
-            return;
-        };
-        for (row, later) in sequence.later.iter_mut().enumerate() {
-            if layout.joint_of(row).ends[later_end(layout, row)].subsystem == number {
-                *later = self.ends[row];
-            }
-        }
-    }
-
     /// Takes over the end values of the coupling variables that depend on a subsystem that is `new`.
     fn take<'a>(
         &mut self,
@@ -200,24 +145,6 @@ impl Uncorrected for Penalty {
         &self.history.newest()[..self.springs.len()]
     }
 
-    fn prepare_estimate(
-        &mut self,
-        parts: &mut Parts,
-        step: MacroStep,
-        scales: &ErrorScales,
-    ) -> Result<(), RunError> {
-        let Some(sequence) = &mut self.sequence else {
-            return Ok(());
-        };
-        let span = scales.span();
-        let unbalanced = &mut sequence.unbalanced;
-        let unbalanced = unbalanced.get_or_insert_with(|| Unbalanced::new(parts, span));
-        let history = &self.history;
-        unbalanced.measure(parts, step, scales, |input| {
-            input.value(history.newest(), history.attitudes())
-        })
-    }
-
     fn advance(&mut self, parts: &mut Parts, step: MacroStep) -> Result<Duration, RunError> {
         parts.prepare_advance(step);
         match self.sequence {
@@ -228,31 +155,10 @@ impl Uncorrected for Penalty {
         Ok(Duration::ZERO)
     }
 
-    fn error_estimate(&mut self, parts: &Parts, step: MacroStep, scales: &ErrorScales) -> Estimate {
-        let mut estimate = Estimate::NONE;
-        let layout = &parts.layout;
-        extrapolate(&self.history, step, &mut self.memory);
-        for (row, spring) in self.springs.iter().enumerate() {
-            let miss = self.history.extrapolation_miss(row, step.length);
-            let change = self.ends[row] - self.memory[row];
-            let displaced = displacement(spring, miss.mean * change, scales.span());
-            let scaled = displaced.abs() / scales.allowed_of_opening(layout, row);
-            estimate.add(scaled, miss.order, Suspect::Opening(row));
-            estimate.change = estimate.change.max(change.abs());
-        }
-        let curves = [&self.memory[..], &self.ends];
-        add_exchanged_errors(layout, &self.history, curves, step, scales, &mut estimate);
-        self.add_unbalanced(parts, step, scales, &mut estimate);
-        estimate
-    }
-
     fn move_on(&mut self, step: MacroStep) {
         self.history.push(step.length, &self.ends);
         if let Some(sequence) = &mut self.sequence {
             sequence.outputs.push(step.length, &sequence.ends);
-            if let Some(unbalanced) = &mut sequence.unbalanced {
-                unbalanced.move_on();
-            }
         }
     }
 
@@ -260,12 +166,6 @@ impl Uncorrected for Penalty {
         let outputs = |subsystem: usize| parts.subsystems[subsystem].sample(sample);
         write_loads(&self.springs, &parts.layout, outputs, multipliers);
     }
-}
-
-/// Which end of a row's joint belongs to the subsystem that steps later.
-fn later_end(layout: &Layout, row: usize) -> usize {
-    let [a, b] = &layout.joint_of(row).ends;
-    usize::from(b.subsystem > a.subsystem)
 }
 
 impl Sequence {
@@ -285,9 +185,6 @@ impl Sequence {
             outputs: History::new(variables, &newest, Vec::new()),
             ends: newest,
             places,
-            later: vec![0.0; parts.layout.rows.len()],
-            errors: vec![[0.0; 2]; parts.layout.rows.len()],
-            unbalanced: None,
         }
     }
 }

@@ -68,6 +68,4 @@ pub enum Lack {
     Output(Level),
     /// An input for the load.
     Load,
-    /// A spring-damper to a partner.
-    Spring,
 }

@@ -2,7 +2,7 @@
 //!
 //! * `coupled`: what a layout is made of;
 //! * `bound`: the layout itself;
-//! * `bind`, `loads`, `named_load`, `springs`, `frames`: how it is made;
+//! * `bind`, `loads`, `named_load`, `frames`: how it is made;
 //! * [`marker`]: the motion of a marker in its subsystem's outputs;
 //! * [`exchanged`]: outputs that are inputs of other subsystems;
 //! * [`input`]: driven inputs and how they follow from the coupling variables.
@@ -16,11 +16,9 @@ pub mod input;
 mod loads;
 pub mod marker;
 mod named_load;
-mod springs;
 
 pub use bound::{BoundJoint, Frame, Layout, Row, column_name};
 pub use coupled::{Coupled, Lack, LoadForm, MarkedConnection, MarkedJoint, MarkerLacks};
 pub use exchanged::{Exchanged, What};
 pub use input::{DrivenInput, Over, Source};
 pub use marker::BoundEnd;
-pub use springs::springs_at;

@@ -45,15 +45,6 @@ pub enum ProbeError {
         /// What the worker reports.
         tolerance: f64,
     },
-    /// The method remembers motion that the probe cannot set.
-    #[error(
-        "force/displacement coupling of degree {degree} remembers forces and motion at earlier macro points, which cannot \
-         be set; its macro-step map can be had for coupling.degree = 0 only"
-    )]
-    RemembersMotion {
-        /// Degree of the polynomials.
-        degree: usize,
-    },
     /// The method remembers outputs that the probe cannot set.
     #[error(
         "penalty coupling of order gauss-seidel extrapolates outputs with degree {degree}, so it remembers earlier ones, which \

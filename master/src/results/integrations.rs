@@ -16,8 +16,6 @@ pub struct Integrations {
     pub corrector: u64,
     /// For results at fixed times inside a macro step.
     pub samples: u64,
-    /// Those that were to stay, but were taken back: steps that proved too long.
-    pub taken_back: u64,
 }
 
 /// What a look-ahead is for.
@@ -33,15 +31,11 @@ impl Integrations {
     /// All together.
     pub fn sum(&self) -> u64 {
         let looks = self.predictor + self.columns + self.passes;
-        looks + self.corrector + self.samples + self.taken_back
+        looks + self.corrector + self.samples
     }
 
     /// Counts what a request asks for; a look-ahead of zero length evaluates and integrates nothing.
     pub(crate) fn count(&mut self, request: &ExchangeRequest, looks_ahead_for: Cause) {
-        if request.go_back {
-            self.corrector = self.corrector.saturating_sub(1);
-            self.taken_back += 1;
-        }
         if let Some(advance) = &request.advance {
             self.corrector += 1;
             self.samples += advance.samples.len() as u64;
@@ -63,6 +57,5 @@ impl Integrations {
         self.passes += other.passes;
         self.corrector += other.corrector;
         self.samples += other.samples;
-        self.taken_back += other.taken_back;
     }
 }

@@ -20,16 +20,22 @@ pub(super) const MACRO_STEP: &str = "macro_step";
 pub(super) const METHOD_KEY: &str = "coupling.method";
 
 /// Keys that every method has.
-const COMMON: [&str; 9] = [
+const COMMON: [&str; 5] = [
     "method",
     "exchanged_degree",
     "loads",
     "macro_step",
+    "increment",
+];
+
+/// Keys that every method with a corrector has.
+const CORRECTED: [&str; 6] = [
+    "jacobian",
+    "iterations",
     "tolerance",
     "absolute_tolerance",
     "least_step",
     "greatest_step",
-    "increment",
 ];
 
 /// Increments that are not given as a number.
@@ -62,13 +68,7 @@ const OTHERWISE: [(&str, Otherwise); 3] = [
 const MOST_PASSES: usize = 1000;
 
 /// The variants of Hermite coupling.
-const VARIANTS: [(&str, Variant); 5] = [
-    ("apv", Variant::Apv),
-    ("c0pv", Variant::C0pv),
-    ("av", Variant::Av),
-    ("c0v", Variant::C0v),
-    ("c0pva", Variant::C0pva),
-];
+const VARIANTS: [(&str, Variant); 2] = [("apv", Variant::Apv), ("c0pv", Variant::C0pv)];
 
 /// In which order subsystems step.
 const ORDERS: [(&str, Order); 2] = [
@@ -83,26 +83,31 @@ enum Kind {
     Hermite,
     Explicit,
     Penalty,
-    Jacobi,
-    GaussSeidel,
 }
 
-const METHODS: [(&str, Kind); 7] = [
+const METHODS: [(&str, Kind); 5] = [
     ("hermite", Kind::Hermite),
     ("baumgarte", Kind::Baumgarte),
     ("weighted", Kind::Weighted),
     ("explicit", Kind::Explicit),
     ("penalty", Kind::Penalty),
-    ("jacobi", Kind::Jacobi),
-    ("gauss-seidel", Kind::GaussSeidel),
 ];
 
 impl Kind {
-    fn parameters(self) -> &'static [&'static str] {
+    /// Keys that not every method has.
+    fn parameters(self) -> impl Iterator<Item = &'static str> {
+        let corrected: &[&str] = match self {
+            Self::Baumgarte | Self::Weighted | Self::Hermite => &CORRECTED,
+            Self::Explicit | Self::Penalty => &[],
+        };
+        self.own_parameters().iter().chain(corrected).copied()
+    }
+
+    fn own_parameters(self) -> &'static [&'static str] {
         match self {
-            Self::Baumgarte => &["degree", "index", "beta", "gamma", "jacobian", "iterations"],
-            Self::Weighted => &["degree", "index", "a", "b", "jacobian", "iterations"],
-            Self::Hermite => &["variant", "jacobian", "iterations"],
+            Self::Baumgarte => &["degree", "index", "beta", "gamma"],
+            Self::Weighted => &["degree", "index", "a", "b"],
+            Self::Hermite => &["variant"],
             Self::Explicit => &["degree", "mu"],
             Self::Penalty => &[
                 "degree",
@@ -112,7 +117,6 @@ impl Kind {
                 "angular_stiffness",
                 "angular_damping",
             ],
-            Self::Jacobi | Self::GaussSeidel => &["degree", "stiffness", "damping"],
         }
     }
 
@@ -123,8 +127,6 @@ impl Kind {
             Self::Hermite => "hermite",
             Self::Explicit => "explicit",
             Self::Penalty => "penalty",
-            Self::Jacobi => "jacobi",
-            Self::GaussSeidel => "gauss-seidel",
         }
     }
 
@@ -159,14 +161,15 @@ impl Kind {
 /// True for a parameter that some methods have, but not the one of this name.
 pub(super) fn belongs_to_others(key: &str, method: &str) -> bool {
     let chosen = METHODS.iter().find(|(name, _)| *name == method);
-    chosen.is_some_and(|(_, kind)| !kind.parameters().contains(&key)) && !owners(key).is_empty()
+    chosen.is_some_and(|(_, kind)| kind.parameters().all(|own| own != key))
+        && !owners(key).is_empty()
 }
 
 /// The methods that have a parameter.
 fn owners(key: &str) -> Vec<&'static str> {
     METHODS
         .iter()
-        .filter(|(_, kind)| kind.parameters().contains(&key))
+        .filter(|(_, kind)| kind.parameters().any(|own| own == key))
         .map(|(name, _)| *name)
         .collect()
 }
@@ -254,7 +257,7 @@ fn check_keys(section: &Section<'_>, kind: Option<Kind>, problems: &mut Problems
 fn check_keys_of_all_methods(section: &Section<'_>, problems: &mut Problems<'_>) {
     let mut allowed = COMMON.to_vec();
     for key in METHODS.iter().flat_map(|(_, kind)| kind.parameters()) {
-        if !allowed.contains(key) {
+        if !allowed.contains(&key) {
             allowed.push(key);
         }
     }
@@ -349,14 +352,6 @@ fn read_method(
             Some(Method::Explicit { mu: mu.ok()? })
         }
         Kind::Penalty => read_penalty(section, steps?, problems),
-        Kind::Jacobi => {
-            let Spring { stiffness, damping } = read_spring(section, LINEAR, steps?, problems)?;
-            Some(Method::Jacobi { stiffness, damping })
-        }
-        Kind::GaussSeidel => {
-            let Spring { stiffness, damping } = read_spring(section, LINEAR, steps?, problems)?;
-            Some(Method::GaussSeidel { stiffness, damping })
-        }
     }
 }
 

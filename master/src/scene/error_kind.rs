@@ -140,14 +140,6 @@ pub enum SceneErrorKind {
         /// H in s.
         macro_step: f64,
     },
-    /// A multiple of H where H varies and the value must not.
-    #[error("`{key}` = {formula} would change with the macro step, which varies here")]
-    FormulaOfVariableSteps {
-        /// The key.
-        key: String,
-        /// The multiple of H.
-        formula: String,
-    },
     /// A word that is not among the choices.
     #[error("`{key}` has no choice {found:?}; it may be {allowed}")]
     UnknownChoice {
@@ -408,9 +400,6 @@ impl SceneErrorKind {
             Self::NotFound { .. } => Some("check the path; it counts from the current folder".into()),
             Self::StepTooLong { .. } => Some("choose a smaller macro step or a later t_end".into()),
             Self::RefusedByWorker { help, .. } => help.clone(),
-            Self::FormulaOfVariableSteps { .. } => {
-                Some("give a number, or leave coupling.tolerance out".into())
-            }
             Self::RejectOfFixedSteps { .. } => Some(
                 "give coupling.tolerance, e.g. 1e-6, which lets the macro step vary, or choose \"fail\" or \"warn\"".to_owned(),
             ),

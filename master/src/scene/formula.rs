@@ -121,11 +121,6 @@ impl Formula {
         self.factor
     }
 
-    /// Whether it is a multiple of the macro step.
-    pub fn follows_steps(self) -> bool {
-        self.unit != Unit::Plain
-    }
-
     /// The value for a macro step in s.
     pub fn at(self, macro_step: f64) -> f64 {
         match self.unit {
@@ -150,15 +145,11 @@ impl Formula {
         }
     }
 
-    /// The number that it is for the macro step of the whole run.
+    /// The number that it is for the macro step of the whole run; methods whose parameters are numbers refuse steps that vary.
     pub(super) fn fixed(self, steps: Steps, key: &str) -> Result<f64, SceneErrorKind> {
         match steps {
             Steps::Fixed(macro_step) => self.checked_at(macro_step, key),
-            Steps::Between(..) if !self.follows_steps() => Ok(self.factor),
-            Steps::Between(..) => Err(SceneErrorKind::FormulaOfVariableSteps {
-                key: key.to_owned(),
-                formula: self.to_string(),
-            }),
+            Steps::Between(..) => Ok(self.factor),
         }
     }
 

@@ -138,11 +138,7 @@ fn below_limit(method: Method, degree: usize, macro_step: f64) -> Option<Warning
         Method::Baumgarte { index, .. } | Method::Weighted { index, .. } => {
             Some(high_index(degree, index))
         }
-        Method::Hermite { .. }
-        | Method::Explicit { .. }
-        | Method::Penalty { .. }
-        | Method::Jacobi { .. }
-        | Method::GaussSeidel { .. } => None,
+        Method::Hermite { .. } | Method::Explicit { .. } | Method::Penalty { .. } => None,
     }
 }
 

@@ -7,7 +7,7 @@ use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 
 use super::attitude::{attitude, rotation_vector};
-use super::interpolation_error::{ErrorShares, ExtrapolationMiss};
+use super::interpolation_error::ErrorShares;
 use super::share::SharePolynomial;
 
 /// Highest degree `k` of the polynomials of coupling variables.
@@ -144,17 +144,6 @@ impl History {
         let extrapolated = self.past_nodes(variable, false);
         let interpolated = self.past_nodes(variable, true);
         ErrorShares::new(&self.times, extrapolated, interpolated, step)
-    }
-
-    /// How the extrapolation of a variable over a step of this length misses it, per miss at the end.
-    pub fn extrapolation_miss(&self, variable: usize, step: f64) -> ExtrapolationMiss {
-        ExtrapolationMiss::new(&self.times, self.past_nodes(variable, false), step)
-    }
-
-    /// How the interpolation of a variable through a wrong value at the end of a step of this length misses the right one, per miss
-    /// at the end.
-    pub fn end_miss(&self, variable: usize, step: f64) -> ExtrapolationMiss {
-        ExtrapolationMiss::new(&self.times, self.past_nodes(variable, true), step)
     }
 
     /// The same for polynomials of another degree, which has one point more: by how much their extrapolation misses the value `end`, and

@@ -25,26 +25,6 @@ pub struct ErrorShares {
     pub order: usize,
 }
 
-/// Error of a variable's extrapolation over a step, per difference between its end value and the true one.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct ExtrapolationMiss {
-    /// Mean of the error over the step: `integral of w_e / (H w_e(H))`. For equidistant nodes 1/2, 5/12, 3/8, 251/720.
-    pub mean: f64,
-    /// The difference falls with this power of `H`.
-    pub order: usize,
-}
-
-impl ExtrapolationMiss {
-    /// For the first `nodes` of the past nodes `times`, newest first: the error is `c w_e`, `w_e = (t - t_0) .. (t - t_q)`.
-    pub fn new(times: &[f64], nodes: usize, step: f64) -> Self {
-        let missed = |tau: f64| -> f64 { times[..nodes].iter().map(|t| tau - t / step).product() };
-        Self {
-            mean: integral(missed) / missed(1.0),
-            order: nodes,
-        }
-    }
-}
-
 impl ErrorShares {
     /// Where nothing is known of the steps before: all of the difference may be an error.
     pub const WITHOUT_PAST: Self = Self {
@@ -114,21 +94,6 @@ mod tests {
         }
         let shares = ErrorShares::new(&times, 4, 3, 0.3);
         assert!((shares.mean + 19.0 / 720.0).abs() < 1e-14, "{shares:?}");
-    }
-
-    #[test]
-    fn extrapolations_over_equal_steps_miss_by_the_factors_of_adams_and_bashforth() {
-        let times = [0.0, -0.3, -0.6, -0.9];
-        for (nodes, expected) in [
-            (1, 0.5),
-            (2, 5.0 / 12.0),
-            (3, 3.0 / 8.0),
-            (4, 251.0 / 720.0),
-        ] {
-            let miss = ExtrapolationMiss::new(&times, nodes, 0.3);
-            assert!((miss.mean - expected).abs() < 1e-14, "{miss:?}");
-            assert_eq!(miss.order, nodes);
-        }
     }
 
     #[test]

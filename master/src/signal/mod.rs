@@ -14,5 +14,5 @@ pub mod share;
 
 pub use curves::{Curves, Lagrange};
 pub use history::{Curve, History, MAX_DEGREE, Variables, combine, vector_at};
-pub use interpolation_error::{ErrorShares, ExtrapolationMiss};
+pub use interpolation_error::ErrorShares;
 pub use share::SharePolynomial;

@@ -29,13 +29,6 @@ impl Parts {
         self.request_samples(step);
     }
 
-    /// Makes every subsystem's next request take its last advance back, before anything else.
-    pub(crate) fn go_back(&mut self) {
-        for subsystem in &mut self.subsystems {
-            subsystem.request.go_back = true;
-        }
-    }
-
     /// Makes every subsystem's next request look ahead from `t` over `length`, which may be 0; subsystems whose outputs nobody
     /// reads have nothing to tell. The signals are filled in by the method.
     pub(crate) fn prepare_prediction(&mut self, t: f64, length: f64) {

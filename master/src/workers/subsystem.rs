@@ -218,7 +218,6 @@ impl Subsystem {
         self.exchanges += 1;
         self.asked.count(&self.request, self.looks_ahead_for);
         self.work += self.reply.work.unwrap_or_default();
-        self.request.go_back = false;
         Ok(())
     }
 

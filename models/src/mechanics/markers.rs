@@ -138,7 +138,6 @@ impl Form {
             velocity: names(self.velocity),
             acceleration: names(self.acceleration),
             load: names(self.load),
-            spring: None,
         }
     }
 }

@@ -109,12 +109,6 @@ fn mass_marker() -> v1::Marker {
         velocity: vec!["v".to_owned()],
         acceleration: vec!["a".to_owned()],
         load: vec!["f".to_owned()],
-        spring: Some(v1::Spring {
-            partner_position: "partner_x".to_owned(),
-            partner_velocity: "partner_v".to_owned(),
-            stiffness: "partner_stiffness".to_owned(),
-            damping: "partner_damping".to_owned(),
-        }),
     }
 }
 

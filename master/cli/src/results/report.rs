@@ -223,9 +223,6 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
         causes.corrector,
         causes.samples
     )?;
-    if causes.taken_back > 0 {
-        writeln!(text, "    taken back {}", causes.taken_back)?;
-    }
     if causes.sum() != statistics.integrations {
         writeln!(
             text,

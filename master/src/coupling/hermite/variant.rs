@@ -6,23 +6,21 @@ pub use crate::scene::Variant;
 impl Variant {
     /// Whether `g'' = 0` at `T_N` determines the start value; otherwise it is the end value of the step before.
     pub fn starts_anew(self) -> bool {
-        matches!(self, Self::Apv | Self::Av)
+        self == Self::Apv
     }
 
     /// The conditions at `T_{N+1}`.
     pub fn ends(self) -> &'static [Level] {
         match self {
             Self::Apv | Self::C0pv => &[Level::Position, Level::Velocity],
-            Self::Av | Self::C0v => &[Level::Velocity],
-            Self::C0pva => &[Level::Position, Level::Velocity, Level::Acceleration],
         }
     }
 
     /// Highest level that is read of the workers.
     pub fn level(self) -> Level {
         match self {
-            Self::Apv | Self::Av | Self::C0pva => Level::Acceleration,
-            Self::C0pv | Self::C0v => Level::Velocity,
+            Self::Apv => Level::Acceleration,
+            Self::C0pv => Level::Velocity,
         }
     }
 

@@ -146,20 +146,6 @@ pub enum Method {
         /// For conditions that are angles.
         angles: Option<Spring>,
     },
-    /// Spring and damper in place of the joint, all subsystems at once.
-    Jacobi {
-        /// Stiffness in N/m, greater than 0.
-        stiffness: f64,
-        /// Damping in N s/m, 0 or greater; default 0.
-        damping: f64,
-    },
-    /// Spring and damper in place of the joint, one subsystem after the other.
-    GaussSeidel {
-        /// Stiffness in N/m, greater than 0.
-        stiffness: f64,
-        /// Damping in N s/m, 0 or greater; default 0.
-        damping: f64,
-    },
 }
 
 impl Method {
@@ -182,12 +168,6 @@ pub enum Variant {
     Apv,
     /// Continuous at `T_N`; g = 0, g' = 0 at `T_{N+1}`: quadratic.
     C0pv,
-    /// g'' = 0 at `T_N`; g' = 0 at `T_{N+1}`: linear.
-    Av,
-    /// Continuous at `T_N`; g' = 0 at `T_{N+1}`: linear.
-    C0v,
-    /// Continuous at `T_N`; g = 0, g' = 0, g'' = 0 at `T_{N+1}`: cubic.
-    C0pva,
 }
 
 /// In which order the subsystems step.

@@ -86,8 +86,8 @@ fn another_method_sets_the_parameters_of_the_old_one_aside() {
     };
     let scene = with(&["coupling.a=1.5", "coupling.method=weighted"]);
     assert_eq!(scene.coupling.method, expected);
-    let scene = with(&["coupling.method=jacobi", "coupling.stiffness=4e5"]);
-    assert!(matches!(scene.coupling.method, Method::Jacobi { .. }));
+    let scene = with(&["coupling.method=penalty", "coupling.stiffness=4e5"]);
+    assert!(matches!(scene.coupling.method, Method::Penalty { .. }));
 }
 
 #[test]

@@ -144,12 +144,6 @@ fn methods_without_an_index_have_their_own_parameters() {
         method("method = 'explicit'\nmu = '10H'"),
         Method::Explicit { mu: mu.into() }
     );
-    let (stiffness, damping) = (3e5, 70.0);
-    let jacobi = method("method = 'jacobi'\nstiffness = 3e5\ndamping = 70");
-    assert_eq!(jacobi, Method::Jacobi { stiffness, damping });
-    let gauss_seidel = method("method = 'gauss-seidel'\nstiffness = 3e5");
-    let damping = 0.0;
-    assert_eq!(gauss_seidel, Method::GaussSeidel { stiffness, damping });
 }
 
 #[test]

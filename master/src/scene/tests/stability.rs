@@ -18,7 +18,7 @@ fn good_combinations_are_not_warned_about() {
         "method = 'weighted'\na = 1\nb = 1\ndegree = 1",
         "method = 'weighted'\na = 2\nb = 4\ndegree = 3",
         "method = 'weighted'\na = 2\nb = 0.5\ndegree = 1",
-        "method = 'jacobi'\nstiffness = 1e6\ndegree = 2",
+        "method = 'penalty'\nstiffness = 1e6\ndegree = 2",
     ] {
         assert_eq!(warned_keys(settings), [""; 0], "{settings}");
     }

@@ -98,16 +98,3 @@ fn mistakes_of_variable_steps_are_told() {
         }
     }
 }
-
-#[test]
-fn springs_do_not_change_with_a_variable_step() {
-    let scene = controlled("tolerance = 1e-5").unwrap();
-    let spring = ["method=penalty", "stiffness=2.5/H^2"].map(|setting| {
-        let setting = format!("coupling.{setting}");
-        setting.parse().unwrap()
-    });
-    let error = scene.with(&spring).unwrap_err().to_string();
-    for word in ["`coupling.stiffness` = \"2.5 /H^2\"", "give a number"] {
-        assert!(error.contains(word), "{word}: {error}");
-    }
-}
