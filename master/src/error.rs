@@ -4,6 +4,7 @@ use linchpin_proto::contract::CallError;
 use linchpin_proto::version::Incompatible;
 
 use crate::connection::{LastWords, StartError};
+use crate::methods::Unreadable;
 use crate::scene::SceneErrors;
 
 /// Why a run could not start or had to stop.
@@ -12,6 +13,9 @@ pub enum RunError {
     /// The scene is wrong; some mistakes show only when the workers are asked.
     #[error(transparent)]
     Scene(#[from] SceneErrors),
+    /// A run cannot go on from a state.
+    #[error("cannot go on from this state: {0}")]
+    Resume(#[from] Unreadable),
     /// A worker could not be started or reached.
     #[error("subsystem \"{subsystem}\": {source}")]
     Start {

@@ -13,27 +13,36 @@
 //! * [`system`]: conditions and Jacobian of the whole scene;
 //! * [`results`]: rows, residuals, verdicts, statistics;
 //! * [`workers`]: requests to the workers and their answers;
-//! * [`coupling`]: the coupling methods;
-//! * [`cosimulation`]: a run and its macro steps, from start to end;
+//! * [`accuracy`]: how large the error of a macro step is, and how large it may be;
+//! * [`methods`]: the coupling methods;
+//! * [`policies`]: what decides about a macro step;
+//! * [`macro_step`]: one macro step, top to bottom;
+//! * [`run`]: the loop around it, and what a run is at a macro point;
+//! * [`setup`]: from a scene to a run at its first macro point;
 //! * [`probe`]: the matrix of the macro-step map of a linear scene.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod accuracy;
 pub mod connection;
-pub mod cosimulation;
-pub mod coupling;
 pub mod error;
 pub mod interrupt;
 pub mod joint;
 pub mod layout;
+pub mod macro_step;
+pub mod methods;
+pub mod policies;
 pub mod probe;
 pub mod results;
+pub mod run;
 pub mod scene;
+pub mod setup;
 pub mod signal;
 pub mod system;
 pub mod time;
 pub mod workers;
 
-pub use cosimulation::CoSimulation;
 pub use error::RunError;
 pub use interrupt::Interrupt;
+pub use run::CoSimulation;
+pub use run::state::RunState;

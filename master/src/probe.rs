@@ -11,9 +11,9 @@ pub mod spectrum;
 use faer::Mat;
 
 use crate::CoSimulation;
-use crate::cosimulation::{Connect, Options, describe, multiplier_columns};
 use crate::results::Row;
 use crate::scene::{Degree, Increment, JointKind, Method, Order, Scene};
+use crate::setup::{Connect, Options, describe, multiplier_columns};
 
 use linchpin_proto::v1::{self, value::Kind};
 

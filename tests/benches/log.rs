@@ -12,8 +12,8 @@ use std::time::Instant;
 use linchpin::connect::{Connector, Place};
 use linchpin::log;
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Scene, parse};
+use linchpin_master::setup::Options;
 
 const SCENE: &str = include_str!("../../scenes/oscillator.toml");
 

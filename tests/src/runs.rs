@@ -5,9 +5,9 @@ use std::convert::Infallible;
 use linchpin::connect::{Connector, Place};
 use linchpin::simulate::{Recorder, SimulateError, simulate};
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 
 /// Time in s after which the multipliers no longer show the first steps.
 const SETTLED: f64 = 0.05;

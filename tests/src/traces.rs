@@ -1,9 +1,9 @@
 //! Macro steps that were rejected leave no trace in a run.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::results::StepDegrees;
 use linchpin_master::scene::{Calls, Scene};
+use linchpin_master::setup::Options;
 
 use crate::runs::{Trajectory, run, try_run};
 

@@ -7,8 +7,8 @@ use std::cell::Cell;
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Override, Scene, parse};
+use linchpin_master::setup::Options;
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;

@@ -4,8 +4,8 @@
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_master::system::solve::LinearSolver;
 use linchpin_models::reference::LinkMotion;
 use linchpin_tests::chain::{reference, scene_text};

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
+use linchpin_master::setup::Options;
 use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
 

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Scene, parse};
+use linchpin_master::setup::Options;
 use linchpin_tests::runs::{run, try_run};
 use linchpin_tests::scenes::with_settings;
 

@@ -9,8 +9,8 @@
 use std::sync::Arc;
 
 use linchpin_master::connection::{Connection, Direct, StartError};
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{self, Scene};
+use linchpin_master::setup::Options;
 use linchpin_master::{CoSimulation, RunError};
 use linchpin_models::oscillator::Oscillator;
 use linchpin_proto::v1;

@@ -4,8 +4,8 @@
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_models::reference::{Bar, FourBar, FourBarMotion, Shake, Side};
 use linchpin_tests::convergence::assert_least_orders;
 use linchpin_tests::runs::{Trajectory, run};

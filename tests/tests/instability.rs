@@ -4,8 +4,8 @@
 
 use linchpin::connect::Place;
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Scene, warnings};
+use linchpin_master::setup::Options;
 use linchpin_tests::runs::try_run;
 use linchpin_tests::scenes::oscillator;
 

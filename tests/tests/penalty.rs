@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
+use linchpin_master::setup::Options;
 use linchpin_tests::convergence::{Study, assert_orders};
 use linchpin_tests::errors::{Errors, closed_form};
 use linchpin_tests::in_space::joints;

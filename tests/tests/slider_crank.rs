@@ -5,8 +5,8 @@
 
 use linchpin::connect::Place;
 use linchpin::error_norm::ColumnError;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_models::reference::SliderCrank;
 use linchpin_tests::convergence::{assert_all_orders, assert_least_orders, slope_of};
 use linchpin_tests::runs::{Trajectory, run, try_run};

@@ -4,9 +4,9 @@
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::joint::composite::in_space;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_models::reference::{
     CompositeJoint, Gimbal, RigidBody, SpatialChain, SpatialChainMotion,
 };

@@ -4,8 +4,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_tests::convergence::{LAMBDA_ROUNDING, STATE_ROUNDING, Study};
 use linchpin_tests::errors::{Errors, closed_form};
 use linchpin_tests::runs::try_run;

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
+use linchpin_master::setup::Options;
 use linchpin_models::reference::CompositeJoint;
 use linchpin_tests::in_space::joints;
 use linchpin_tests::in_space::pair::Pair;

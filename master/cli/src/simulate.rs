@@ -1,8 +1,9 @@
 //! Runs a scene from start to end and hands every recorded row on.
 
-use linchpin_master::cosimulation::{Mechanism, Options};
+use linchpin_master::results::Mechanism;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_master::{CoSimulation, RunError};
 
 use crate::connect::Connector;

@@ -5,10 +5,10 @@ use std::path::Path;
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::probe::{MacroStepMap, ProbeError, macro_step_map};
 use linchpin_master::results::Row;
 use linchpin_master::scene::{self, Override, Scene};
+use linchpin_master::setup::Options;
 
 fn oscillator(settings: &[(&str, &str)]) -> Scene {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/oscillator.toml");

@@ -61,6 +61,7 @@ impl<'a> Binder<'a> {
     pub(super) fn new(coupled: &'a Coupled<'a>, level: Level) -> Result<Self, MarkerLacks> {
         let subsystems = coupled.subsystems.len();
         let layout = Layout {
+            subsystems: coupled.subsystems.iter().map(ToString::to_string).collect(),
             joints: Vec::with_capacity(coupled.joints.len()),
             rows: Vec::new(),
             exchanged: Vec::new(),

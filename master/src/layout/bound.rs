@@ -16,6 +16,8 @@ use crate::signal::Variables;
 ///
 /// The coupling variables `w` are the multipliers of all rows, then the exchanged variables.
 pub struct Layout {
+    /// Names of the subsystems.
+    pub subsystems: Vec<String>,
     /// Joints in the order of the scene.
     pub joints: Vec<BoundJoint>,
     /// Rows of all joints in their order; row `r` has multiplier number `r`.

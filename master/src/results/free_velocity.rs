@@ -1,9 +1,9 @@
 //! Initial velocities that a run has chosen.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// An initial velocity that was chosen.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FreeVelocity {
     /// Name of the subsystem.
     pub subsystem: String,

@@ -5,9 +5,10 @@ use crate::joint::LEAST_MOTION;
 use crate::layout::{Layout, Row as LayoutRow};
 use crate::results::Row;
 use crate::time::MacroStep;
+use serde::{Deserialize, Serialize};
 
 /// Watches the opening of the joints and the growth of all values.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Guard {
     most_opening: f64,
     most_growth: f64,

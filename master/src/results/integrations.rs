@@ -1,10 +1,10 @@
 //! Integrations over a macro step by cause, as the master asked for them.
 
 use linchpin_proto::v1::ExchangeRequest;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Number of integrations over a macro step by what they were for.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Integrations {
     /// With extrapolated inputs.
     pub predictor: u64,

@@ -1,17 +1,22 @@
 //! What a run tells: rows, residuals, verdicts, statistics.
 
+mod contacts;
 mod free_velocity;
 mod guard;
 mod integrations;
+mod mechanism;
 mod outcome;
 mod row;
 mod statistics;
 mod step_degrees;
 mod verdict;
 
+pub use contacts::RecordedContact;
+pub(crate) use contacts::outputs as contact_outputs;
 pub use free_velocity::FreeVelocity;
 pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
+pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use outcome::{Outcome, Passes};
 pub use row::{Drawn, Row};
 pub use statistics::{

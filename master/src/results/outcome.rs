@@ -1,5 +1,6 @@
 //! What became of a macro step.
 
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
 use super::verdict::Verdict;
@@ -19,18 +20,18 @@ pub struct Outcome {
 
 impl Outcome {
     /// Of a step that no corrector has judged.
-    pub(crate) fn of_step(step: MacroStep, solving: Duration) -> Self {
+    pub(crate) fn of_step(step: MacroStep) -> Self {
         Self {
             step,
             verdict: Verdict::Uncorrected,
-            solving,
+            solving: Duration::ZERO,
             passes: Passes::default(),
         }
     }
 }
 
 /// How the corrections of a macro step went.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passes {
     /// Corrections after the first one.
     pub count: u32,

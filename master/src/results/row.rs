@@ -4,7 +4,7 @@ use crate::joint::Level;
 use crate::layout::Layout;
 use crate::results::StepDegrees;
 use crate::system::motion_of;
-use crate::time::MacroStep;
+use crate::time::{MacroStep, at_start};
 
 /// The column of variable macro steps.
 const STEP: &str = "step";
@@ -26,6 +26,8 @@ pub struct Row {
     /// The first column that tells of the macro step itself.
     first_of_step: usize,
     shows_step: bool,
+    /// The macro step that ends here.
+    step: MacroStep,
 }
 
 /// A column in the picture of a run.
@@ -93,6 +95,7 @@ impl Row {
             levels: levels.len(),
             first_of_step,
             shows_step,
+            step: at_start(0.0),
         }
     }
 
@@ -106,6 +109,7 @@ impl Row {
         outputs: impl Fn(usize) -> &'a [f64],
         multipliers: &[f64],
     ) {
+        self.step = step;
         self.values.clear();
         self.values.push(step.end);
         for subsystem in 0..self.first_outputs.len() {
@@ -168,6 +172,11 @@ impl Row {
             .iter()
             .map(String::as_str);
         names.zip(self.values[1..self.first_residual].iter().copied())
+    }
+
+    /// The macro step that ends here.
+    pub(crate) fn step(&self) -> MacroStep {
+        self.step
     }
 
     /// Output number `output` of a subsystem.

@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use linchpin_proto::v1;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
 use crate::layout::Layout;
@@ -11,7 +11,7 @@ use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
 
 /// What a run cost and how well its joints held.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Macro steps done.
     pub macro_steps: u64,
@@ -46,7 +46,7 @@ pub struct Statistics {
 }
 
 /// How the macro steps were corrected.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Corrections {
     /// Macro steps for which columns of the coupling Jacobian were integrated; the others used columns of earlier ones.
     pub steps_with_columns: u64,
@@ -74,7 +74,7 @@ impl Corrections {
 }
 
 /// What became of variable macro steps.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct StepStatistics {
     /// Attempts that were repeated with a shorter step.
     pub rejected: u64,
@@ -87,7 +87,7 @@ pub struct StepStatistics {
 }
 
 /// Attempts at a macro step that were repeated, by cause.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Rejections {
     /// The estimated error was larger than allowed.
     pub error: u64,
@@ -98,7 +98,7 @@ pub struct Rejections {
 }
 
 /// A macro step.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepAt {
     /// Its start in s.
     pub t: f64,
@@ -122,7 +122,7 @@ impl StepStatistics {
 }
 
 /// Number of macro steps by the degree of the polynomials, from 0 on, with which they were corrected.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DegreeStatistics {
     /// Those of multipliers, if they follow the estimates.
     pub multipliers: Option<[u64; MAX_DEGREE + 1]>,
@@ -145,7 +145,7 @@ impl DegreeStatistics {
 }
 
 /// Number of macro steps by verdict.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdicts {
     /// [`Verdict::Uncorrected`]
     pub uncorrected: u64,
@@ -158,25 +158,25 @@ pub struct Verdicts {
 }
 
 /// Largest residual of one condition of a joint over the run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JointResiduals {
     /// Name in the scene.
     pub joint: String,
     /// Which of its conditions, e.g. `x`; empty if it has only one.
-    pub part: &'static str,
+    pub part: String,
     /// Level of the condition.
-    pub level: &'static str,
+    pub level: String,
     /// Largest absolute value.
     pub largest: f64,
 }
 
 /// What one subsystem did.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SubsystemStatistics {
     /// Name in the scene.
     pub subsystem: String,
     /// Which way the exchange took.
-    pub route: &'static str,
+    pub route: String,
     /// Exchanges with its worker.
     pub exchanges: u64,
     /// Integrations over a macro step that its worker reports.
@@ -195,7 +195,7 @@ pub struct SubsystemStatistics {
 }
 
 /// What the contacts inside a subsystem did.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactStatistics {
     /// Internal steps in which a contact closed anew.
     pub impacts: u64,
@@ -242,8 +242,8 @@ impl Statistics {
             let levels = layout.level.up_to().iter();
             statistics.joints.extend(levels.map(|level| JointResiduals {
                 joint: joint.name.clone(),
-                part: joint.joint.name(row.condition),
-                level: level.name(),
+                part: joint.joint.name(row.condition).to_owned(),
+                level: level.name().to_owned(),
                 largest: 0.0,
             }));
         }

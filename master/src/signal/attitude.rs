@@ -98,6 +98,37 @@ pub fn rotation_of_change(phi: &Vector3<f64>, change: &Vector3<f64>) -> Vector3<
 /// Below this angle (rad) the first terms of the series are exact to rounding.
 const SMALL: f64 = 1e-3;
 
+/// Attitudes as the components `w, x, y, z` of their quaternions, bit by bit.
+pub mod quaternions {
+    use nalgebra::{Quaternion, UnitQuaternion};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    /// Writes them.
+    ///
+    /// # Errors
+    /// Those of the serializer.
+    pub fn serialize<S: Serializer>(
+        attitudes: &[UnitQuaternion<f64>],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        let components = attitudes.iter().map(|q| [q.w, q.i, q.j, q.k]);
+        components.collect::<Vec<_>>().serialize(serializer)
+    }
+
+    /// Reads them.
+    ///
+    /// # Errors
+    /// Those of the deserializer.
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<UnitQuaternion<f64>>, D::Error> {
+        let components = Vec::<[f64; 4]>::deserialize(deserializer)?;
+        let attitude =
+            |[w, x, y, z]: [f64; 4]| UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z));
+        Ok(components.into_iter().map(attitude).collect())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -5,8 +5,9 @@ use std::ops::Range;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
 
-use super::attitude::{attitude, rotation_vector};
+use super::attitude::{attitude, quaternions, rotation_vector};
 use super::interpolation_error::ErrorShares;
 use super::share::SharePolynomial;
 
@@ -14,7 +15,7 @@ use super::share::SharePolynomial;
 pub const MAX_DEGREE: usize = 3;
 
 /// What the variables are.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Variables {
     /// Degree of the polynomial of each variable.
     pub degrees: Vec<usize>,
@@ -26,12 +27,13 @@ pub struct Variables {
 ///
 /// Times are relative to the present macro point `T_N`, so they do not lose digits as time goes on. Rotation vectors are
 /// relative to the attitude at `T_N`; their past values are carried over to the new attitude with every step.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     variables: Variables,
     highest: usize,
     times: Vec<f64>,
     values: Vec<Vec<f64>>,
+    #[serde(with = "quaternions")]
     attitudes: Vec<UnitQuaternion<f64>>,
     /// For each variable the number of points since it has jumped; all points if it has not.
     smooth_points: Vec<usize>,

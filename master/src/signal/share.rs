@@ -1,9 +1,11 @@
 //! Polynomials of the share `s = tau / H` of a macro step.
 
+use serde::{Deserialize, Serialize};
+
 const TERMS: usize = 5;
 
 /// `c_0 + c_1 s + c_2 s^2 + ...`
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct SharePolynomial([f64; TERMS]);
 
 impl SharePolynomial {

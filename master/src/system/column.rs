@@ -2,6 +2,7 @@
 
 use crate::layout::{DrivenInput, Layout};
 use crate::scene::Increment;
+use serde::{Deserialize, Serialize};
 
 /// Relative increment when it is chosen automatically. Loads enter nearly linearly, so a large one costs no accuracy
 /// and stands above the noise of a solver with step-size control.
@@ -31,8 +32,8 @@ pub struct Column {
 }
 
 /// Response of an output to a unit of an input over a step.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-struct Response {
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Response {
     value: f64,
     length: f64,
 }
@@ -96,6 +97,16 @@ impl Column {
     /// The step is done: its response is what increments are chosen by.
     pub fn keep_response(&mut self) {
         self.kept = self.response;
+    }
+
+    /// What increments are chosen by, to be written.
+    pub fn kept_response(&self) -> Response {
+        self.kept
+    }
+
+    /// Goes on from what was written.
+    pub fn resume_response(&mut self, response: Response) {
+        (self.response, self.kept) = (response, response);
     }
 
     /// What was measured for a step that is not taken counts for nothing.

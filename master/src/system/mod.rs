@@ -5,8 +5,10 @@
 //! * [`unknowns`]: what is solved for of every coupling variable;
 //! * `entries`, [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
+//! * `answers`: what the workers have answered;
 //! * `motion`: the motion of the joints' markers.
 
+mod answers;
 mod column;
 mod entries;
 mod equations;
@@ -19,7 +21,8 @@ mod residuals;
 pub mod solve;
 pub mod unknowns;
 
-pub use column::Column;
+pub use answers::{Differentiation, LookAhead, Outputs, Perturbation};
+pub use column::{Column, Response};
 pub use equations::System;
 pub use motion::motion_of;
 pub use point::Point;

@@ -1,11 +1,13 @@
 //! The equidistant macro-time grid and its steps.
 
+use serde::{Deserialize, Serialize};
+
 /// The points `T_0 < T_1 < ... < T_n` with `T_0 = t_start` and `T_n = t_end` exactly.
 ///
 /// All steps have the length `H`, except at the end where `H` does not divide the time span: a remainder of at least
 /// `H/2` is one shorter step; a smaller one is shared with the step before it, so that the last two steps have the
 /// length `(H + remainder) / 2`. No step is longer than `H` or shorter than `H/2`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MacroGrid {
     t_start: f64,
     t_end: f64,
@@ -16,7 +18,7 @@ pub struct MacroGrid {
 }
 
 /// One macro step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MacroStep {
     /// `T_N` in s.
     pub start: f64,

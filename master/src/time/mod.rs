@@ -6,3 +6,6 @@ mod plan;
 pub(crate) use grid::at_start;
 pub use grid::{MacroGrid, MacroStep};
 pub use plan::TimePlan;
+
+/// A macro step is at most this many times as long as the one before. More would make the polynomials over unequal steps unstable.
+pub const MOST_GROWTH: f64 = 2.0;

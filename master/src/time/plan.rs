@@ -1,9 +1,10 @@
 //! The macro points of a run, known in advance or found step by step.
 
 use super::grid::{MacroGrid, MacroStep, ROUNDING};
+use serde::{Deserialize, Serialize};
 
 /// Where a run stands and which macro step it takes from there. No other place adds macro steps up.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TimePlan {
     rule: Rule,
     t_end: f64,
@@ -12,7 +13,7 @@ pub struct TimePlan {
     step: Option<MacroStep>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Rule {
     /// All macro points are known.
     Grid(MacroGrid),

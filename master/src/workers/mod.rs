@@ -1,20 +1,26 @@
-//! The workers of a run: requests to them, in memory that is kept, and the reading of their answers.
+//! The workers of a run: the only writer of requests to them, in memory that is kept, and the only reader of their answers.
 //!
 //! * `subsystem`: one worker, its request, and its answer, checked;
-//! * `parts`: all of them with the layout of the coupling: what the next requests ask for;
+//! * `all`: all of them;
+//! * `look`: what a look-ahead is asked for;
+//! * `requests`: what the next requests to all of them ask for;
+//! * `views`: what they have answered, as values;
 //! * `exchange`: all requests out, all answers in;
 //! * `samples`: results at fixed times inside a macro step;
 //! * `recovery`: exchanges after which a shorter macro step may follow;
 //! * `pieces`: an advance that a worker cannot take at once.
 
+mod all;
 mod exchange;
-mod parts;
+mod look;
 mod pieces;
-pub(crate) mod recovery;
+mod recovery;
+mod requests;
 mod samples;
 mod subsystem;
+mod views;
 
-pub(crate) use exchange::exchange;
-pub use parts::Parts;
+pub use all::Workers;
+pub(crate) use look::Look;
 pub(crate) use samples::Samples;
 pub use subsystem::{Ahead, Subsystem};

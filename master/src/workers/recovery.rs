@@ -4,16 +4,29 @@
 //! advance fails, the workers that refused are asked for the advance alone, and where they refuse that as well for its pieces: then all of them stand
 //! at the same macro point again.
 
+use super::all::Workers;
 use super::pieces::{advance_in_pieces, is_refusal};
 use super::subsystem::Subsystem;
 use super::subsystem::answer::Answered;
 use crate::error::RunError;
 use crate::time::MacroStep;
 
+impl Workers {
+    /// A look-ahead of all subsystems, after which a shorter one may follow.
+    pub(crate) fn try_look(&mut self, step: MacroStep) -> Result<(), RunError> {
+        look(&mut self.subsystems, step)
+    }
+
+    /// The advance of all subsystems over `step` and their look-ahead over the following one, which may come to nothing: then gives why.
+    pub(crate) fn try_advance(&mut self, step: MacroStep) -> Result<Option<RunError>, RunError> {
+        advance(&mut self.subsystems, step)
+    }
+}
+
 /// A look-ahead of all subsystems, without an advance. All answers are taken, so that the next request may follow whatever came; a
 /// failure that a shorter step does not cure is told before others.
 #[tracing::instrument(name = "exchange", level = "trace", skip_all)]
-pub(crate) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
+fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
     for subsystem in &mut *subsystems {
         subsystem.post(step)?;
     }
@@ -32,10 +45,7 @@ pub(crate) fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), 
 /// The advance of all subsystems over `step`, and the look-ahead over the following one: gives what came between, if that was the
 /// look-ahead alone.
 #[tracing::instrument(name = "exchange", level = "trace", skip_all)]
-pub(crate) fn advance(
-    subsystems: &mut [Subsystem],
-    step: MacroStep,
-) -> Result<Option<RunError>, RunError> {
+fn advance(subsystems: &mut [Subsystem], step: MacroStep) -> Result<Option<RunError>, RunError> {
     for subsystem in &mut *subsystems {
         subsystem.post(step)?;
     }

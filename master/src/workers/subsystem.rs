@@ -15,7 +15,7 @@ use linchpin_proto::version::PROTOCOL;
 use crate::connection::{Connection, LastWords};
 use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
-use crate::scene::Increment;
+use crate::system::Differentiation;
 use crate::time::MacroStep;
 
 /// How far a look-ahead goes.
@@ -95,7 +95,7 @@ impl Subsystem {
         let work = &self.work;
         SubsystemStatistics {
             subsystem: self.name.clone(),
-            route: self.route(),
+            route: self.route().to_owned(),
             exchanges: self.exchanges,
             integrations: work.integrations,
             integrations_by_cause: self.asked,
@@ -111,14 +111,12 @@ impl Subsystem {
         self.coupling_outputs > 0
     }
 
-    /// Whether columns are asked of it as directional derivatives.
-    pub(crate) fn gives_derivatives(&self, rule: Increment) -> bool {
-        self.offers_derivatives && rule == Increment::Derivatives
-    }
-
-    /// Size of the errors in a step and in a perturbed one that do not cancel in their difference, if it is more than rounding.
-    pub(crate) fn noise(&self) -> Option<f64> {
-        self.tolerance.filter(|_| !self.repeats_steps)
+    /// How its responses are had.
+    pub(crate) fn differentiation(&self) -> Differentiation {
+        Differentiation {
+            noise: self.tolerance.filter(|_| !self.repeats_steps),
+            has_derivatives: self.offers_derivatives,
+        }
     }
 
     /// Which way the exchange takes.

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
+use linchpin_master::setup::Options;
 use linchpin_tests::chain::scene_text;
 use linchpin_tests::scenes::with_settings;
 

@@ -2,8 +2,8 @@
 
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Scene, parse};
+use linchpin_master::setup::Options;
 use linchpin_proto::v1;
 use prost::Message;
 

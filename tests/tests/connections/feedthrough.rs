@@ -2,8 +2,8 @@
 
 use linchpin::connect::Place;
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_tests::runs::{Trajectory, try_run};
 use linchpin_tests::scenes::with_settings;
 

@@ -1,8 +1,8 @@
 //! Mistakes in connections: place, value, what is allowed, what to do.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::parse;
+use linchpin_master::setup::Options;
 use linchpin_tests::runs::try_run;
 
 const SCENE: &str = include_str!("../../../scenes/motor/driven-link.toml");

@@ -1,8 +1,8 @@
 //! Steps that a worker cannot take, where H may vary: repeated with a shorter H as long as nothing was committed.
 
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_proto::v1::Failure;
 use linchpin_tests::errors::closed_form;
 use linchpin_tests::scenes::{oscillator, oscillator_with};

@@ -3,8 +3,8 @@
 //! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table` prints the table of docs/evidence/step-size.md.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 use linchpin_models::reference::{DoublePendulum, GroundHinge, Link};
 use linchpin_tests::errors::closed_form;
 use linchpin_tests::runs::{Trajectory, run, try_run};

@@ -1,7 +1,7 @@
 //! Runs that ask for too much.
 
 use linchpin::connect::Place;
-use linchpin_master::cosimulation::Options;
+use linchpin_master::setup::Options;
 use linchpin_tests::runs::try_run;
 use linchpin_tests::scenes::with_settings;
 

@@ -1,6 +1,6 @@
 //! What the contacts of a run do: forces of the closed ones and impacts.
 
-use linchpin_master::cosimulation::RecordedContact;
+use linchpin_master::results::RecordedContact;
 
 /// Numbers of a contact in a frame of the page.
 pub(super) const NUMBERS_PER_FRAME: usize = 2;

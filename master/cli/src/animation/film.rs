@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use linchpin_master::cosimulation::RecordedJoint;
+use linchpin_master::results::RecordedJoint;
 use nalgebra::Vector3;
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! Positions of the markers at some of the recorded macro points.
 
-use linchpin_master::cosimulation::{Mechanism, RecordedJoint, RecordedMarker};
+use linchpin_master::results::{Mechanism, RecordedJoint, RecordedMarker};
 use linchpin_proto::v1::MarkerKind;
 
 use super::contacts::{Contact, NUMBERS_PER_FRAME};

@@ -1,6 +1,6 @@
 //! How markers are shown, by their names and by what else their models tell.
 
-use linchpin_master::cosimulation::{Mechanism, RecordedMarker};
+use linchpin_master::results::{Mechanism, RecordedMarker};
 use linchpin_proto::v1::MarkerKind;
 
 use super::motion::Motion;

@@ -1,6 +1,6 @@
 //! Where the mechanism moves.
 
-use linchpin_master::cosimulation::RecordedJoint;
+use linchpin_master::results::RecordedJoint;
 use linchpin_proto::joint_load::Pose;
 use nalgebra::Vector3;
 

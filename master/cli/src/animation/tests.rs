@@ -1,6 +1,6 @@
 #![allow(clippy::unwrap_used)]
 
-use linchpin_master::cosimulation::{Mechanism, RecordedContact, RecordedJoint, RecordedMarker};
+use linchpin_master::results::{Mechanism, RecordedContact, RecordedJoint, RecordedMarker};
 use linchpin_proto::v1::MarkerKind;
 use nalgebra::Vector3;
 use serde_json::Value;

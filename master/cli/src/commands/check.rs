@@ -1,8 +1,8 @@
 //! `linchpin check`: validates a scene and starts nothing.
 
 use linchpin_master::CoSimulation;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::{Case, Scene, Served, is_spectrum, load_spectrum};
+use linchpin_master::setup::Options;
 
 use super::CommandError;
 use super::common::{SceneArguments, case_folders, print, warn};

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use linchpin_master::Interrupt;
-use linchpin_master::cosimulation::Options;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 
 use super::CommandError;
 use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print};

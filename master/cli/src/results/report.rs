@@ -141,7 +141,7 @@ impl RunReport {
             )?;
         }
         for joint in &statistics.joints {
-            let what = [joint.part, joint.level].join(" ");
+            let what = [&joint.part[..], &joint.level[..]].join(" ");
             let name = format!("{} ({})", joint.joint, what.trim_start());
             writeln!(
                 text,

@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::multiplier_columns;
 use linchpin_master::results::Row;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::multiplier_columns;
 use linchpin_proto::v1::Model;
 
 /// A result column, or the sum of several.

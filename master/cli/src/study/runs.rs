@@ -3,9 +3,9 @@
 use std::convert::Infallible;
 
 use linchpin_master::RunError;
-use linchpin_master::cosimulation::{Connect, Options, describe};
 use linchpin_master::results::Statistics;
 use linchpin_master::scene::{Override, Scene, SceneErrors};
+use linchpin_master::setup::{Connect, Options, describe};
 use linchpin_proto::v1::Model;
 
 use super::StudyError;

@@ -1,7 +1,7 @@
 //! Stable or not by simulation.
 
-use linchpin_master::cosimulation::{Connect, Options};
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::{Connect, Options};
 use linchpin_master::{CoSimulation, RunError};
 use linchpin_proto::v1::{Model, Value, value::Kind as ValueKind};
 

@@ -1,0 +1,71 @@
+//! How large the error of a macro step is, compared with what is allowed.
+
+use crate::layout::Layout;
+
+/// The worst error of a macro step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Estimate {
+    /// Error over what is allowed: a step with more than 1 is too long.
+    pub scaled: f64,
+    /// The power of the macro step with which it falls.
+    pub order: usize,
+    /// What has it.
+    pub suspect: Suspect,
+    /// Largest difference between a corrected and a predicted multiplier. Where the solution jumps it does not fall with the step.
+    pub change: f64,
+}
+
+/// What an error belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Suspect {
+    /// Nothing has an error.
+    None,
+    /// A coupling output of a subsystem.
+    Output {
+        /// Place of the subsystem.
+        subsystem: usize,
+        /// Place among its coupling outputs.
+        output: usize,
+    },
+    /// A coupling variable.
+    Variable(usize),
+    /// The opening of the joint with this row of the coupling system.
+    Opening(usize),
+}
+
+impl Estimate {
+    /// No error at all.
+    pub const NONE: Self = Self {
+        scaled: 0.0,
+        order: 1,
+        suspect: Suspect::None,
+        change: 0.0,
+    };
+
+    /// Takes a part of the error; one that is no number counts as infinite.
+    pub fn add(&mut self, scaled: f64, order: usize, suspect: Suspect) {
+        let scaled = if scaled.is_nan() {
+            f64::INFINITY
+        } else {
+            scaled
+        };
+        if scaled > self.scaled {
+            self.scaled = scaled;
+            self.order = order;
+            self.suspect = suspect;
+        }
+    }
+
+    /// Name of what has the error, for messages.
+    pub fn suspect_name(&self, layout: &Layout) -> String {
+        match self.suspect {
+            Suspect::None => String::new(),
+            Suspect::Output { subsystem, output } => {
+                let name = &layout.subsystems[subsystem];
+                format!("{name}.{}", layout.outputs[subsystem][output])
+            }
+            Suspect::Variable(variable) => layout.variable_name(variable),
+            Suspect::Opening(row) => layout.column_name(row, "residual.position"),
+        }
+    }
+}

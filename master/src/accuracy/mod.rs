@@ -1,0 +1,16 @@
+//! How large the error of a macro step is, and how large it may be.
+//!
+//! * `estimate`: the worst error of a step;
+//! * `tolerance`: what is allowed of each quantity;
+//! * `position_error`: errors of positions by those of the multipliers, and what a step leaves of the joints open;
+//! * `attempts`: what several attempts at a step tell of variables without a past.
+
+mod attempts;
+mod estimate;
+mod position_error;
+pub mod tolerance;
+
+pub use attempts::{Attempts, CHORD_ORDER};
+pub use estimate::{Estimate, Suspect};
+pub use position_error::{Correction, PositionErrors};
+pub use tolerance::Tolerance;

@@ -1,0 +1,142 @@
+//! Errors of positions by the errors of the multipliers, and what a step leaves of the joints open.
+
+use super::estimate::{Estimate, Suspect};
+use super::tolerance::Tolerance;
+use crate::joint::Level;
+use crate::layout::Layout;
+use crate::system::{Column, Outputs, System, motion_of};
+
+/// A correction that was solved for, as far as its error is concerned.
+#[derive(Clone, Copy)]
+pub struct Correction<'a> {
+    /// What is coupled.
+    pub layout: &'a Layout,
+    /// The coupling outputs at the start of the step.
+    pub outputs: &'a dyn Outputs,
+    /// Length of the step (s).
+    pub step: f64,
+    /// The system that was solved.
+    pub system: &'a System,
+    /// Its columns.
+    pub columns: &'a [Column],
+    /// Change of all unknowns from their prediction.
+    pub change: &'a [f64],
+    /// Errors of the unknowns of multipliers as positions feel them; 0 for other unknowns.
+    pub errors: &'a [f64],
+    /// Share of an error in the change.
+    pub share: f64,
+    /// The power of the step with which errors of positions fall.
+    pub order: usize,
+}
+
+/// Memory for the estimate.
+#[derive(Debug, Clone, Default)]
+pub struct PositionErrors {
+    raised: Vec<f64>,
+    shift: Vec<f64>,
+}
+
+impl PositionErrors {
+    /// For a system with `size` rows.
+    pub fn new(size: usize) -> Self {
+        Self {
+            raised: Vec::new(),
+            shift: vec![0.0; size],
+        }
+    }
+
+    /// Adds the errors of the positions at all joints, which are the columns times the errors of the multipliers.
+    pub fn add_errors(
+        &mut self,
+        correction: Correction<'_>,
+        tolerance: &Tolerance,
+        estimate: &mut Estimate,
+    ) {
+        let Correction { system, layout, .. } = correction;
+        system.raise(layout, correction.errors, &mut self.raised);
+        for number in 0..layout.joints.len() {
+            self.estimate_joint(number, correction, tolerance, estimate);
+        }
+    }
+
+    /// Adds the openings of the joints at the end of the step. A joint that earlier steps left open by more than what is allowed must not open
+    /// further, but no step need close it at once, however short: joints close at a rate per step.
+    pub fn add_openings(
+        &mut self,
+        correction: Correction<'_>,
+        tolerance: &Tolerance,
+        estimate: &mut Estimate,
+    ) {
+        let Correction {
+            system,
+            layout,
+            outputs,
+            ..
+        } = correction;
+        system.shift(Level::Position, correction.change, &mut self.shift);
+        let ends = system.residual(Level::Position).iter().zip(&self.shift);
+        let mut ends = ends.enumerate();
+        for (number, joint) in layout.joints.iter().enumerate() {
+            let [[length, _], [angle, _]] = openings(layout, outputs, number);
+            let rows = joint.joint.conditions().zip(&mut ends);
+            for (condition, (row, (predicted, shift))) in rows {
+                let before = if condition.is_length() { length } else { angle };
+                let allowed = tolerance.allowed_of_opening(layout, row);
+                let inherited = (before - allowed).max(0.0);
+                let scaled = ((predicted + shift).abs() - inherited) / allowed;
+                estimate.add(scaled, correction.order, Suspect::Opening(row));
+            }
+        }
+    }
+
+    /// What closes the joint again after errors of earlier steps is no error of this one.
+    fn estimate_joint(
+        &self,
+        number: usize,
+        correction: Correction<'_>,
+        tolerance: &Tolerance,
+        estimate: &mut Estimate,
+    ) {
+        let Correction {
+            layout,
+            outputs,
+            step,
+            ..
+        } = correction;
+        // How far the joint would be open at the end of the step if no load closed it.
+        let inherited =
+            openings(layout, outputs, number).map(|[opening, rate]| opening + step * rate);
+        for end in &layout.joints[number].ends {
+            let subsystem = end.subsystem;
+            let columns = correction.system.columns_of(layout, subsystem);
+            for output in end.positions() {
+                let responses = columns.clone().filter_map(|column| {
+                    let response = correction.columns[column].derivatives.get(output)?;
+                    Some(response * self.raised[column])
+                });
+                let is_angle = !end.coordinates().contains(&output);
+                let inherited = inherited[usize::from(is_angle)];
+                let error = responses.sum::<f64>().abs() - correction.share.abs() * inherited;
+                let scaled = error / tolerance.allowed_of_output(subsystem, output);
+                estimate.add(
+                    scaled,
+                    correction.order,
+                    Suspect::Output { subsystem, output },
+                );
+            }
+        }
+    }
+}
+
+/// How far a joint is open at the start of the step, and how fast it opens, in m and in rad.
+fn openings(layout: &Layout, outputs: &dyn Outputs, number: usize) -> [[f64; 2]; 2] {
+    let motion = motion_of(layout, number, |subsystem| outputs.of(subsystem));
+    let mut openings = [[0.0_f64; 2]; 2];
+    for condition in layout.joints[number].joint.conditions() {
+        let values = condition.values(layout.level, &motion);
+        let [opening, rate] = &mut openings[usize::from(!condition.is_length())];
+        *opening = opening.max(values[0].abs());
+        *rate = rate.max(values[1].abs());
+    }
+    openings
+}

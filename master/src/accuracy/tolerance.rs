@@ -1,0 +1,168 @@
+//! What error of a macro step is allowed.
+
+use serde::{Deserialize, Serialize};
+
+use crate::layout::{Layout, What};
+use crate::scene::StepControl;
+use crate::system::Outputs;
+
+/// What error of a step is allowed of each quantity that the coupling watches: the absolute tolerance and the relative one times the
+/// largest size so far, both divided by one more than the path so far in sizes; but not less than the tolerance that the subsystem's solver reports.
+///
+/// Errors of the phase add up along the path: with `tolerance / (1 + path)` for each piece of it, an oscillation that goes on collects `tolerance
+/// ln(1 + path)`, whatever its frequency.
+///
+/// The coordinates of both markers of a joint have one size in m, their angles one in rad, which is 1 at most: a wheel that has turned
+/// often is not less accurate for it. Every connected signal has its own.
+pub struct Tolerance {
+    relative: f64,
+    absolute: f64,
+    state: State,
+    /// For each subsystem the error that its solver allows itself: less cannot be told.
+    solvers: Vec<f64>,
+}
+
+/// The sizes of all quantities so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    sizes: Vec<Size>,
+    /// For each subsystem and coupling output what it belongs to, if it is watched.
+    watched: Vec<Vec<Option<Watched>>>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Size {
+    largest: f64,
+    most: f64,
+    path: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Watched {
+    size: usize,
+    /// Value at the last macro point.
+    last: f64,
+}
+
+impl Tolerance {
+    /// For the quantities of `layout` at a start with these `outputs`; `solvers` are the tolerances of the subsystems' solvers.
+    pub fn new(
+        control: &StepControl,
+        layout: &Layout,
+        solvers: Vec<f64>,
+        outputs: &dyn Outputs,
+    ) -> Self {
+        let watched = layout
+            .outputs
+            .iter()
+            .map(|outputs| vec![None; outputs.len()]);
+        let mut tolerance = Self {
+            relative: control.tolerance,
+            absolute: control.absolute_tolerance,
+            state: State {
+                sizes: Vec::new(),
+                watched: watched.collect(),
+            },
+            solvers,
+        };
+        for joint in &layout.joints {
+            let length = tolerance.add_size(f64::INFINITY);
+            let angle = tolerance.add_size(1.0);
+            for end in &joint.ends {
+                for place in end.positions() {
+                    let is_length = end.coordinates().contains(&place);
+                    tolerance.watch(end.subsystem, place, if is_length { length } else { angle });
+                }
+            }
+        }
+        for exchanged in &layout.exchanged {
+            if let What::Output(place) = exchanged.what {
+                let own = tolerance.add_size(f64::INFINITY);
+                tolerance.watch(exchanged.subsystem, place, own);
+            }
+        }
+        tolerance.begin(outputs);
+        tolerance
+    }
+
+    fn add_size(&mut self, most: f64) -> usize {
+        self.state.sizes.push(Size {
+            largest: 0.0,
+            most,
+            path: 0.0,
+        });
+        self.state.sizes.len() - 1
+    }
+
+    fn watch(&mut self, subsystem: usize, output: usize, size: usize) {
+        let last = 0.0;
+        self.state.watched[subsystem][output].get_or_insert(Watched { size, last });
+    }
+
+    fn begin(&mut self, outputs: &dyn Outputs) {
+        self.observe(outputs);
+        for size in &mut self.state.sizes {
+            size.path = 0.0;
+        }
+    }
+
+    /// Takes the values at a macro point that is reached.
+    pub fn observe(&mut self, outputs: &dyn Outputs) {
+        for (subsystem, watched) in self.state.watched.iter_mut().enumerate() {
+            for (&value, watched) in outputs.of(subsystem).iter().zip(watched) {
+                let Some(watched) = watched else {
+                    continue;
+                };
+                let size = &mut self.state.sizes[watched.size];
+                size.largest = size.largest.max(value.abs()).min(size.most);
+                if size.largest > 0.0 {
+                    size.path += (value - watched.last).abs() / size.largest;
+                }
+                watched.last = value;
+            }
+        }
+    }
+
+    /// What is remembered, to be written.
+    pub fn state(&self) -> State {
+        self.state.clone()
+    }
+
+    /// Goes on from what was written.
+    pub fn resume(&mut self, state: State) {
+        self.state = state;
+    }
+
+    /// The error that is allowed of a coupling output.
+    pub fn allowed_of_output(&self, subsystem: usize, output: usize) -> f64 {
+        let allowed = match self.state.watched[subsystem][output] {
+            Some(watched) => {
+                let Size { largest, path, .. } = self.state.sizes[watched.size];
+                (self.absolute + self.relative * largest) / (1.0 + path)
+            }
+            None => self.absolute,
+        };
+        allowed.max(self.solvers[subsystem])
+    }
+
+    /// How far a joint may be open in one row: as far as its markers may be off.
+    pub fn allowed_of_opening(&self, layout: &Layout, row: usize) -> f64 {
+        let joint = layout.joint_of(row);
+        let condition = joint.joint.condition(layout.rows[row].condition);
+        let end = &joint.ends[0];
+        let mut positions = end.positions();
+        let is_length = |place: &usize| end.coordinates().contains(place);
+        let like = positions.find(|place| is_length(place) == condition.is_length());
+        like.map_or(self.absolute, |place| {
+            self.allowed_of_output(end.subsystem, place)
+        })
+    }
+
+    /// The error that is allowed of an exchanged variable.
+    pub fn allowed_of_variable(&self, subsystem: usize, what: What) -> f64 {
+        match what {
+            What::Output(output) => self.allowed_of_output(subsystem, output),
+            What::Attitude { .. } => self.absolute + self.relative,
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! One macro step, from `T_N` to `T_{N+1}`.
+//!
+//! What the workers foresee at the end of the step came with the exchange before. So a step is corrected before any worker takes it,
+//! and one exchange both advances over it and looks ahead over the following one. Where steps vary, a step that is rejected is tried
+//! again, shorter, by another look-ahead from the same macro point: nothing that lasts is changed before a step is accepted.
+//!
+//! * `advance`: the exchange;
+//! * `correcting`: prediction, look-ahead and correction, and what they teach;
+//! * `jacobian`: conditions and the workers' responses, linearised;
+//! * `error`: the error of a step, and with it the degrees of the next one;
+//! * `rejection`: what may stand against a step;
+//! * `run`: what takes part.
+
+mod advance;
+mod correcting;
+mod error;
+mod jacobian;
+mod rejection;
+mod run;
+
+pub(crate) use advance::reach;
+pub(crate) use correcting::{Corrector, State as CorrectorState};
+pub(crate) use jacobian::{Jacobian, PointJacobian};
+pub(crate) use run::Run;
+
+use crate::accuracy::Estimate;
+use crate::error::RunError;
+use crate::policies::iteration::IterationControl;
+use crate::results::Outcome;
+use crate::time::MacroStep;
+use advance::advance;
+use correcting::check_finite;
+use rejection::Rejection;
+
+/// From `T_N` to `T_{N+1}`, in a step that is not longer than `first`.
+pub(crate) fn macro_step(run: &mut Run, first: MacroStep) -> Result<Outcome, RunError> {
+    let mut outcome = Outcome::of_step(first);
+    let accepted = loop {
+        match attempt(run, &mut outcome) {
+            Ok(accepted) => break accepted,
+            Err(rejection) => repeat(run, rejection, &mut outcome)?,
+        }
+    };
+    let step = outcome.step;
+    let wish = accept(run, step, accepted);
+    let following = run.plan.following(wish);
+    advance(run, step, following)?;
+    run.plan.move_on(following);
+    check(run, step, &mut outcome)?;
+    Ok(outcome)
+}
+
+/// What an accepted step leaves behind.
+struct Accepted {
+    /// How its corrections went.
+    iteration: IterationControl,
+    /// Its error, and the one that it would have had with the degrees of the next one.
+    estimates: Option<[Estimate; 2]>,
+}
+
+/// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
+/// what the error belongs to, and cost exchanges.
+fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> {
+    let step = outcome.step;
+    let mut iteration = run.iteration;
+    let mut estimates = None;
+    let refusal = run.refusal.take();
+    let Some((mut own, policies)) = run.correcting() else {
+        run.method.predict(step.length);
+        return Ok(Accepted {
+            iteration,
+            estimates,
+        });
+    };
+    if let Some(error) = refusal {
+        return Err(error.into());
+    }
+    outcome.solving += own.correct(step)?;
+    if let Some(step_size) = policies.step_size {
+        let found = own.error(step, step_size.tolerance(), [None, None]);
+        let next = own.choose_degrees(policies.degrees, step, step_size, &found);
+        if step_size.is_too_long(&found) {
+            return Err(Rejection::by_error(
+                own.layout,
+                step,
+                step_size,
+                [found, next],
+            ));
+        }
+        estimates = Some([found, next]);
+    }
+    own.begin(&mut iteration);
+    while let Some(with_columns) = iteration.next_pass() {
+        own.look_again(step, with_columns)?;
+        outcome.solving += own.correct(step)?;
+        iteration.note_pass(own.size_of_change(), with_columns);
+    }
+    let converged = iteration.check();
+    converged.map_err(|because| Rejection::not_converged(own.layout, step, because))?;
+    Ok(Accepted {
+        iteration,
+        estimates,
+    })
+}
+
+/// Looks ahead over a shorter step from the same macro point, if the rejection allows one.
+fn repeat(run: &mut Run, rejection: Rejection, outcome: &mut Outcome) -> Result<(), RunError> {
+    let repetition = rejection.repetition(run.step_size.as_mut(), outcome.step)?;
+    if let Some((mut own, policies)) = run.correcting().filter(|_| repetition.has_jumped) {
+        own.restart(policies.degrees);
+    }
+    outcome.step = run.plan.shorten(repetition.length);
+    look_ahead(run, outcome.step, None)
+}
+
+/// A look-ahead from the present macro point over `step`, without an advance, with new columns or as they are needed. Where steps vary the
+/// next attempt at the step learns what has become of it.
+pub(crate) fn look_ahead(
+    run: &mut Run,
+    step: MacroStep,
+    with_columns: Option<bool>,
+) -> Result<(), RunError> {
+    let mut iteration = run.iteration;
+    let Some((mut own, _)) = run.correcting() else {
+        return Ok(());
+    };
+    own.workers.forgo_advance();
+    own.predict(step);
+    let with_columns = with_columns.unwrap_or_else(|| own.decide_columns(&mut iteration, step));
+    let requested = own.request_prediction(step, with_columns);
+    let looked = requested.and_then(|()| own.look(step));
+    let varies = own.varies;
+    run.iteration = iteration;
+    match looked {
+        Err(error) if varies && error.may_vanish_with_a_shorter_step() => {
+            run.refusal = Some(error);
+            Ok(())
+        }
+        looked => looked,
+    }
+}
+
+/// Takes the step; the length of the next one.
+fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
+    run.iteration = accepted.iteration;
+    run.iteration.accept(step);
+    if let Some((mut own, policies)) = run.correcting() {
+        let workers = &mut *own.workers;
+        let layout = own.layout;
+        own.method
+            .lend(&mut |curves, _| workers.request_advance(layout, step, curves));
+        own.accept(policies.degrees);
+    }
+    match (&mut run.step_size, accepted.estimates) {
+        (Some(step_size), Some([found, next])) => step_size.accept(step, &next, next == found),
+        _ => step.length,
+    }
+}
+
+/// What the workers have reached: tells the method, compares it with what was promised, and learns from the difference.
+fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), RunError> {
+    outcome.solving += reach(run, step)?;
+    let mut iteration = run.iteration;
+    match run.correcting() {
+        Some((mut own, _)) => {
+            outcome.verdict = own.judge();
+            if iteration.learns() {
+                let missed = own.learn(iteration.has_fresh_columns());
+                iteration.learn(missed);
+            }
+            outcome.passes = iteration.passes();
+        }
+        None => check_finite(run.method.ends(), &run.layout, step)?,
+    }
+    run.iteration = iteration;
+    Ok(())
+}

@@ -1,0 +1,416 @@
+//! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
+//!
+//! * `measured`: responses over one length, and what they depend on;
+//! * `kept`: responses of earlier macro steps that stay in use;
+//! * `axes`: responses that turn with the bodies;
+//! * `lengths`: responses over one length, from those that were measured over others;
+//! * `resolution`: whether the macro step resolves the responses.
+
+mod axes;
+mod kept;
+mod lengths;
+mod measured;
+mod resolution;
+
+use std::ops::Range;
+
+use crate::joint::Level;
+use crate::layout::{DrivenInput, Layout};
+use crate::scene::Increment;
+use crate::signal::{Curves, Nodes, SharePolynomial};
+use crate::system::unknowns::Unknowns;
+use crate::system::{Column, Differentiation, LookAhead, Perturbation, Response};
+
+use serde::{Deserialize, Serialize};
+
+use kept::Kept;
+use measured::{Kind, Measured};
+pub use resolution::Resolution;
+
+/// The columns of all driven inputs, one for each shape of an input.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    rule: Increment,
+    basis: Basis,
+    /// How the responses of each subsystem are had.
+    differentiation: Vec<Differentiation>,
+    columns: Vec<Column>,
+    /// The shape of each column in the present step.
+    shapes: Vec<SharePolynomial>,
+    /// The columns of each input.
+    of_input: Vec<Range<usize>>,
+    /// Inputs raised in each of the curves of the basis.
+    raised: Vec<Column>,
+    /// The raised ones of each input.
+    raised_of_input: Vec<Range<usize>>,
+    /// How many of them the present step asks of each subsystem.
+    raised_of_subsystem: Vec<usize>,
+    /// What the last look-ahead was asked for.
+    asked: Vec<Perturbation>,
+    /// Which ones a step needs.
+    needed: Vec<bool>,
+    /// The responses to them, as they were last measured or carried along.
+    responses: Vec<Vec<f64>>,
+    /// Places of the markers' positions in the coupling outputs of each subsystem.
+    positions: Vec<Vec<usize>>,
+    /// Whether the last look-ahead was asked for responses that were not taken yet.
+    are_fresh: bool,
+    kept: Kept,
+    resolution: Resolution,
+    /// Length of the look-ahead in s.
+    length: f64,
+}
+
+/// What is remembered of earlier macro steps.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    settled: Vec<Measured>,
+    last: Kind,
+    /// For each raised input the response by which increments are chosen.
+    responses: Vec<Response>,
+    resolution: Resolution,
+}
+
+/// How responses are measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measuring {
+    /// How much inputs are raised.
+    pub increment: Increment,
+    /// In which curves.
+    pub basis: Basis,
+    /// Whether responses stay in use after their macro step.
+    pub stay: bool,
+}
+
+/// In which curves inputs are raised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Basis {
+    /// In the shapes of the unknowns themselves: one each, but where a shape depends on past nodes its response serves with these alone.
+    Shapes,
+    /// In the powers of the share of the step that the shapes are made of: responses to shapes with any past nodes follow from these.
+    Powers,
+}
+
+impl Basis {
+    /// Number of curves for an input with this many shapes.
+    fn curves(self, shapes: usize) -> usize {
+        match self {
+            Self::Shapes => shapes,
+            Self::Powers => SharePolynomial::TERMS,
+        }
+    }
+
+    /// The past nodes on which responses depend, of those on which the shapes do.
+    fn nodes(self, nodes: Nodes<'_>) -> Nodes<'_> {
+        match self {
+            Self::Shapes => nodes,
+            Self::Powers => Nodes::default(),
+        }
+    }
+
+    /// One of these curves, for an input with these shapes.
+    fn curve(self, shapes: &[SharePolynomial], number: usize) -> SharePolynomial {
+        match self {
+            Self::Shapes => shapes[number],
+            Self::Powers => SharePolynomial::power(number),
+        }
+    }
+}
+
+impl Columns {
+    /// The columns of the driven inputs of `layout` over a look-ahead, one for each shape of an input; the conditions are made of outputs on
+    /// `levels`.
+    pub fn new(
+        measuring: Measuring,
+        levels: &'static [Level],
+        layout: &Layout,
+        unknowns: &Unknowns,
+        differentiation: &[Differentiation],
+    ) -> Self {
+        let Measuring {
+            increment,
+            basis,
+            stay,
+        } = measuring;
+        let mut own = Self {
+            rule: increment,
+            basis,
+            differentiation: differentiation.to_vec(),
+            columns: Vec::new(),
+            shapes: Vec::new(),
+            of_input: Vec::new(),
+            raised: Vec::new(),
+            raised_of_input: Vec::new(),
+            raised_of_subsystem: vec![0; layout.outputs.len()],
+            asked: Vec::new(),
+            needed: Vec::new(),
+            responses: Vec::new(),
+            positions: positions_of(layout),
+            are_fresh: false,
+            kept: Kept::new(layout, levels, stay),
+            resolution: Resolution::new(layout),
+            length: 0.0,
+        };
+        for (number, input) in layout.inputs.iter().enumerate() {
+            let numbers = unknowns.columns(number);
+            own.columns.resize_with(numbers.end, Column::default);
+            let first = own.raised.len();
+            if !numbers.is_empty() {
+                let end = first + basis.curves(numbers.len());
+                own.raised.resize_with(end, || Column::new(input, layout));
+            }
+            own.raised_of_input.push(first..own.raised.len());
+            // All shapes of an input are needed; which powers these are made of depends on the step.
+            own.needed.resize(own.raised.len(), input.is_perturbed);
+            own.of_input.push(numbers);
+        }
+        own.shapes
+            .resize(own.columns.len(), SharePolynomial::default());
+        own.responses.resize_with(own.raised.len(), Vec::new);
+        own
+    }
+
+    /// What is remembered, to be written.
+    pub fn state(&self) -> State {
+        let (settled, last) = self.kept.state();
+        State {
+            settled,
+            last,
+            responses: self.raised.iter().map(Column::kept_response).collect(),
+            resolution: self.resolution.clone(),
+        }
+    }
+
+    /// Goes on from what was written.
+    pub fn resume(&mut self, state: State) {
+        self.kept.resume(state.settled, state.last);
+        for (raised, response) in self.raised.iter_mut().zip(state.responses) {
+            raised.resume_response(response);
+        }
+        self.resolution = state.resolution;
+    }
+
+    /// The columns in the order of the inputs; those of inputs that are not perturbed are empty.
+    pub fn all(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// How well the macro steps have resolved the responses.
+    pub fn resolution(&self) -> &Resolution {
+        &self.resolution
+    }
+
+    /// Chooses what a look-ahead over these curves is asked for beside its outputs: every perturbed input in the curves that are needed,
+    /// if `with_columns`. `ends` are the values of all variables at its end.
+    pub fn ask(
+        &mut self,
+        layout: &Layout,
+        curves: &dyn Curves,
+        ends: &[f64],
+        with_columns: bool,
+    ) -> &[Perturbation] {
+        self.are_fresh = with_columns;
+        self.length = curves.length();
+        if with_columns || self.basis == Basis::Powers {
+            self.take_shapes(layout, curves);
+        }
+        self.asked.clear();
+        if with_columns {
+            self.raised_of_subsystem.fill(0);
+            for (number, input) in layout.inputs.iter().enumerate() {
+                if input.is_perturbed {
+                    let end = input.value(ends, curves.attitudes());
+                    self.ask_input(layout, number, (input, end));
+                }
+            }
+        }
+        &self.asked
+    }
+
+    /// The shapes of the columns over these curves, and which raised inputs they need.
+    fn take_shapes(&mut self, layout: &Layout, curves: &dyn Curves) {
+        if self.basis == Basis::Powers {
+            self.needed.fill(false);
+        }
+        let ranges = self.of_input.iter().zip(&self.raised_of_input);
+        for (input, (columns, raised)) in layout.inputs.iter().zip(ranges) {
+            if !input.is_perturbed {
+                continue;
+            }
+            let leading = Unknowns::leading(input);
+            for (number, column) in columns.clone().enumerate() {
+                let shape = curves.shape(leading, number);
+                if self.basis == Basis::Powers {
+                    let needed = self.needed[raised.clone()].iter_mut();
+                    for (needed, coefficient) in needed.zip(shape.coefficients()) {
+                        *needed |= *coefficient != 0.0;
+                    }
+                }
+                self.shapes[column] = shape;
+            }
+        }
+    }
+
+    /// Raises an input, whose predicted value at the end of the step is `end`, in the curves that are needed.
+    fn ask_input(&mut self, layout: &Layout, number: usize, (input, end): (&DrivenInput, f64)) {
+        let is_read = !layout.outputs[input.subsystem].is_empty();
+        let Differentiation { noise, .. } = self.differentiation[input.subsystem];
+        let gives_derivatives = self.gives_derivatives(input.subsystem);
+        let shapes = &self.shapes[self.of_input[number].clone()];
+        let own = self.raised_of_input[number].clone();
+        let needed = &self.needed[own.clone()];
+        let count = &mut self.raised_of_subsystem[input.subsystem];
+        for (curve, (raised, is_needed)) in self.raised[own].iter_mut().zip(needed).enumerate() {
+            raised.place = (is_read && *is_needed).then_some(*count);
+            let Some(place) = raised.place else {
+                continue;
+            };
+            *count += 1;
+            let increment = (!gives_derivatives).then(|| {
+                let audible = noise.map(|noise| raised.audible(self.length, noise));
+                raised.choose_increment(self.rule, end, audible);
+                raised.increment
+            });
+            self.asked.push(Perturbation {
+                input: number,
+                place,
+                shape: self.basis.curve(shapes, curve),
+                increment,
+            });
+        }
+    }
+
+    fn gives_derivatives(&self, subsystem: usize) -> bool {
+        self.rule == Increment::Derivatives && self.differentiation[subsystem].has_derivatives
+    }
+
+    /// Looks for responses of earlier macro steps for a look-ahead of this length over these curves, with these past nodes. Gives the
+    /// share of them that may be wrong because they were measured over other lengths; `None` if there are none.
+    pub fn prepare(
+        &mut self,
+        layout: &Layout,
+        (length, nodes): (f64, Nodes<'_>),
+        curves: &dyn Curves,
+    ) -> Option<f64> {
+        if self.basis == Basis::Powers {
+            self.take_shapes(layout, curves);
+        }
+        let nodes = self.basis.nodes(nodes);
+        let needed = (&self.raised_of_input[..], &self.needed[..]);
+        self.kept.prepare(layout, (length, nodes), needed)
+    }
+
+    /// Begins with the first look-ahead over a macro step, or over a repeated one, of this length and with these past nodes. Gives
+    /// whether the macro step before was such a one.
+    pub fn begin(&mut self, length: f64, nodes: Nodes<'_>) -> bool {
+        self.raised.iter_mut().for_each(Column::drop_response);
+        self.kept.begin(length, self.basis.nodes(nodes))
+    }
+
+    /// The step is done: its responses may serve later ones, and increments are chosen by them.
+    pub fn settle(&mut self) {
+        self.kept.settle();
+        self.raised.iter_mut().for_each(Column::keep_response);
+    }
+
+    /// Takes the difference quotients of the last answers of all workers, if columns were asked for; otherwise carries earlier
+    /// ones along to the attitudes of the last prediction.
+    pub fn difference(&mut self, layout: &Layout, ahead: &dyn LookAhead) {
+        let outputs = |subsystem: usize| ahead.of(subsystem);
+        if std::mem::take(&mut self.are_fresh) {
+            self.take_responses(layout, ahead);
+            self.kept.keep(layout, outputs, &self.responses);
+        } else {
+            let own = &self.raised_of_input;
+            let carried = self.kept.carry(layout, outputs, own, &mut self.responses);
+            if !carried {
+                return;
+            }
+        }
+        self.combine();
+    }
+
+    fn take_responses(&mut self, layout: &Layout, ahead: &dyn LookAhead) {
+        self.resolution.begin();
+        for (number, input) in layout.inputs.iter().enumerate() {
+            for (curve, place) in self.raised_of_input[number].clone().enumerate() {
+                self.responses[place].clear();
+                if let Some(asked) = self.raised[place].place {
+                    self.take_response(ahead, asked, (input.subsystem, place));
+                    self.judge_response(input.subsystem, (number, curve), place);
+                }
+            }
+        }
+        self.resolution.judge();
+    }
+
+    /// Takes answer number `asked` of a subsystem.
+    fn take_response(
+        &mut self,
+        ahead: &dyn LookAhead,
+        asked: usize,
+        (subsystem, place): (usize, usize),
+    ) {
+        let gives_derivatives = self.gives_derivatives(subsystem);
+        let raised = &mut self.raised[place];
+        if gives_derivatives {
+            raised.derivatives.clear();
+            let derivatives = ahead.derivatives(subsystem, asked);
+            raised.derivatives.extend_from_slice(derivatives);
+        } else {
+            let perturbed = ahead.perturbed(subsystem, asked);
+            raised.difference(ahead.unperturbed(subsystem), perturbed);
+        }
+        raised.note_response(&self.positions[subsystem], self.length);
+        std::mem::swap(&mut self.responses[place], &mut raised.derivatives);
+    }
+
+    fn judge_response(&mut self, subsystem: usize, (input, curve): (usize, usize), place: usize) {
+        // A constant part of a polynomial acts from the start: the acceleration at the end of the step is none of its conditions.
+        let is_part = self.basis == Basis::Powers && curve == 0 && self.needed[place + 1];
+        if self.raised[place].is_load && !is_part {
+            let shapes = &self.shapes[self.of_input[input].clone()];
+            let shape = self.basis.curve(shapes, curve);
+            let response = &self.responses[place];
+            self.resolution
+                .take(subsystem, (curve, &shape), self.length, response);
+        }
+    }
+
+    /// The columns from the responses in the present step.
+    fn combine(&mut self) {
+        for (columns, raised) in self.of_input.iter().zip(&self.raised_of_input) {
+            let responses = &mut self.responses[raised.clone()];
+            for (number, column) in columns.clone().enumerate() {
+                let derivatives = &mut self.columns[column].derivatives;
+                match self.basis {
+                    Basis::Shapes => std::mem::swap(derivatives, &mut responses[number]),
+                    Basis::Powers => {
+                        let coefficients = self.shapes[column].coefficients();
+                        add_up(responses.iter().zip(coefficients), derivatives);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// `sum coefficient response`; responses that are not known have no part in it.
+fn add_up<'a>(terms: impl Iterator<Item = (&'a Vec<f64>, &'a f64)>, sums: &mut Vec<f64>) {
+    sums.clear();
+    for (response, coefficient) in terms {
+        sums.resize(sums.len().max(response.len()), 0.0);
+        for (sum, one) in sums.iter_mut().zip(response) {
+            *sum += coefficient * one;
+        }
+    }
+}
+
+/// Places of the markers' positions in the coupling outputs of each subsystem.
+fn positions_of(layout: &Layout) -> Vec<Vec<usize>> {
+    let mut positions = vec![Vec::new(); layout.outputs.len()];
+    for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
+        positions[end.subsystem].extend(end.positions());
+    }
+    positions
+}

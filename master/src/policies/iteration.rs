@@ -1,0 +1,370 @@
+//! How often a macro step is corrected, and when the columns of the coupling Jacobian are asked for afresh.
+
+use serde::{Deserialize, Serialize};
+
+use super::norm::{Change, MOST_LEFT};
+use crate::results::Passes;
+use crate::scene::{Coupling, Iterations, Jacobian, Otherwise};
+use crate::time::MacroStep;
+
+/// When columns are asked for afresh. A scene does not change these numbers; run.json shows them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Settings {
+    /// What columns of an earlier step may leave of a correction, relative to usual corrections. Larger leaves errors that change from step
+    /// to step, smaller takes passes for nothing. Where steps vary 3e-3: the error of such a step is a thirtieth of a correction and more.
+    pub most_left: f64,
+    /// Rate of convergence above which new columns come with the next look-ahead. Smaller asks more often, larger takes more passes:
+    /// at 0.3 one pass less pays for the columns of two or three inputs.
+    pub slow: f64,
+    /// Rate of convergence above which the step itself is corrected with new columns. Nearer to 1 passes hardly help.
+    pub too_slow: f64,
+    /// Noise is what stands so many times above what convergence explains; what stands so many times above noise is none.
+    pub above_noise: f64,
+    /// A pass that leaves more than this share of what it has changed was of no use.
+    pub useless: f64,
+    /// Share that noise keeps from step to step where nothing is heard of it. At 1 one noisy step stops passes for good.
+    pub fading: f64,
+    /// Most passes that columns of an earlier step get; then the correction stays as it is, and its verdict tells.
+    pub most_passes: u32,
+    /// After so many macro steps of one length that needed passes with columns of other lengths it gets its own.
+    pub most_borrowed: u32,
+}
+
+impl Settings {
+    fn new(varies: bool) -> Self {
+        Self {
+            most_left: if varies { 3e-3 } else { MOST_LEFT },
+            slow: 0.3,
+            too_slow: 0.5,
+            above_noise: 2.0,
+            useless: 0.7,
+            fading: 0.99,
+            most_passes: 8,
+            most_borrowed: 3,
+        }
+    }
+}
+
+/// What corrections of a step have missed, relative to the first corrections of the last macro steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Missed {
+    /// What another correction with the matrix at hand would change after the last one.
+    pub by_last: f64,
+    /// What the first one would have missed if nothing had been foreseen.
+    pub by_first: f64,
+}
+
+/// The corrections of a step have not come to an end within their number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unconverged {
+    /// The last correction.
+    pub change: Change,
+    /// What was allowed of it, relative to the variables.
+    pub tolerance: f64,
+    /// Corrections after the first one.
+    pub passes: u32,
+    /// Share that each leaves of the one before.
+    pub rate: f64,
+    /// The share of the step with which they would just have converged, if the step is to be repeated and the rate tells.
+    pub share: Option<f64>,
+    /// Whether the step is to be repeated with a shorter one.
+    pub rejects: bool,
+}
+
+/// Watches how well corrections converge with the columns at hand.
+///
+/// With columns of an earlier step a correction misses its aim by a share, the *rate*. A pass looks ahead over the same step with the
+/// corrected inputs and corrects what is left, so that the result is the one of new columns; it takes one integration
+/// of each subsystem, where columns take one for each input.
+///
+/// A macro step works on a copy, which becomes the present state when the step is accepted.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IterationControl {
+    settings: Settings,
+    rule: Jacobian,
+    iterations: Option<Iterations>,
+    /// Rate of columns of which no step has shown it: where steps vary they are trusted for one step.
+    unknown_rate: Option<f64>,
+    state: State,
+}
+
+/// What is known of the columns at hand and of the present step.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Share that a correction misses with the columns at hand; `None` until a step has shown it.
+    rate: Option<f64>,
+    /// Share that the first correction of a step has left, which takes into account what it was foreseen to miss.
+    left_by_first: Option<f64>,
+    /// Whether the columns at hand belong to the look-ahead over the present step.
+    are_fresh: bool,
+    /// Whether the present step was predicted without a past.
+    is_blind: bool,
+    /// Whether the last look-ahead, over the following step, was asked for columns.
+    come_next: bool,
+    /// Share of the columns for it that may be wrong because they were measured over other lengths; `None` if it brings new ones.
+    off_by_length: Option<f64>,
+    /// Whether corrections converged too slowly when the last step was taken.
+    is_slow: bool,
+    /// Length of that step in s.
+    length: f64,
+    /// Macro steps of this length in a row that needed passes with columns of other lengths.
+    borrowed: u32,
+    /// Size of the first correction of the step.
+    first: f64,
+    last: Change,
+    /// What passes do not take away: rounding and the errors of the solvers.
+    noise: f64,
+    passes: Passes,
+}
+
+impl IterationControl {
+    /// Under the rules of the scene.
+    pub fn new(coupling: &Coupling) -> Self {
+        let varies = coupling.step_control.is_some();
+        Self {
+            settings: Settings::new(varies),
+            rule: coupling.jacobian,
+            iterations: coupling.iterations,
+            unknown_rate: varies.then_some(0.0),
+            state: State {
+                are_fresh: true,
+                come_next: true,
+                ..State::default()
+            },
+        }
+    }
+
+    /// Whether new columns have to come with the next look-ahead, whatever others are at hand.
+    pub fn needs_new_columns(&self) -> bool {
+        self.rule == Jacobian::EveryStep || self.state.is_slow
+    }
+
+    /// Decides whether the look-ahead over the `following` step brings new columns, where those that were `found` may be wrong by this
+    /// share because they were measured over other lengths; `None` if there are none.
+    pub fn decide_columns(&mut self, following: MacroStep, found: Option<f64>) -> bool {
+        let state = &mut self.state;
+        // A length that stays is worth columns of its own.
+        let is_own =
+            state.borrowed >= self.settings.most_borrowed && state.length == following.length;
+        state.off_by_length = found.filter(|off| *off == 0.0 || !is_own);
+        state.come_next = state.off_by_length.is_none();
+        if state.come_next && self.rule != Jacobian::EveryStep {
+            let because = match found {
+                _ if state.is_slow => "corrections converge slowly",
+                Some(_) => "steps keep a length without columns of its own",
+                None => "no columns at hand serve",
+            };
+            let (t, rate) = (following.start, state.rate);
+            tracing::debug!(t, H = following.length, because, rate, "Jacobian refresh");
+        }
+        state.come_next
+    }
+
+    /// After the first correction of a step whose error is small enough. The step `continues` the one before if it has the columns and the
+    /// shape of that; it `is_blind` if it was predicted without a past.
+    pub fn begin(&mut self, change: Change, continues: bool, is_blind: bool) {
+        let state = &mut self.state;
+        state.are_fresh = state.come_next;
+        state.is_blind = is_blind;
+        state.last = change;
+        state.passes = Passes {
+            with_columns: state.are_fresh,
+            ..Passes::default()
+        };
+        if !continues {
+            let off = state.off_by_length.filter(|_| !state.are_fresh);
+            state.rate = state.rate.filter(|_| off.is_some());
+            state.left_by_first = state.rate.or(self.unknown_rate).zip(off).map(larger);
+        }
+        state.first = change.of_usual;
+    }
+
+    /// Whether the step has to be corrected once more, and then whether with new columns.
+    pub fn next_pass(&mut self) -> Option<bool> {
+        let leaves_too_much = self.leaves_too_much();
+        let state = &mut self.state;
+        let is_wanted = match self.iterations {
+            Some(iterations) => {
+                let is_open = state.last.of_size > iterations.tolerance;
+                state.passes.is_unconverged = is_open && state.passes.count == iterations.most;
+                is_open && state.passes.count < iterations.most
+            }
+            None => {
+                let is_blind = state.is_blind && state.passes.count == 0;
+                is_blind || leaves_too_much && state.passes.count < self.settings.most_passes
+            }
+        };
+        let is_too_slow = state.rate.is_some_and(|rate| rate > self.settings.too_slow);
+        let needs_columns = is_too_slow || self.is_out_of_reach();
+        if is_wanted && needs_columns {
+            let because = "corrections do not converge in this step";
+            tracing::debug!(because, rate = self.state.rate, "Jacobian refresh");
+        }
+        is_wanted.then_some(needs_columns)
+    }
+
+    /// Whether the passes that are left do not converge with columns of earlier steps.
+    fn is_out_of_reach(&self) -> bool {
+        let state = &self.state;
+        let rate = state.rate.or(state.off_by_length);
+        let (Some(iterations), Some(rate)) = (self.iterations, rate) else {
+            return false;
+        };
+        let passes = iterations.most.saturating_sub(state.passes.count);
+        let left = rate.powf(f64::from(passes));
+        !state.are_fresh && left * state.last.of_size > iterations.tolerance
+    }
+
+    fn leaves_too_much(&self) -> bool {
+        let state = &self.state;
+        if self.rule == Jacobian::EveryStep || state.are_fresh || state.last.of_usual == 0.0 {
+            return false;
+        }
+        let left = match state.passes.count {
+            0 => state.left_by_first.or(self.unknown_rate),
+            _ => state.rate,
+        };
+        let noise = self.settings.above_noise * state.noise;
+        let most = self.settings.most_left.max(noise);
+        left.is_none_or(|share| share * state.last.of_usual > most)
+    }
+
+    /// After another correction.
+    pub fn note_pass(&mut self, change: Change, with_columns: bool) {
+        let state = &mut self.state;
+        let rate = rate(change.of_usual, state.last.of_usual);
+        if state.passes.count == 0 {
+            state.left_by_first = Some(rate);
+        }
+        state.passes.count += 1;
+        tracing::debug!(
+            pass = state.passes.count,
+            change = change.of_size,
+            rate,
+            with_columns,
+            "corrected again"
+        );
+        state.passes.rate = Some(rate);
+        state.passes.with_columns |= with_columns;
+        state.last = change;
+        state.are_fresh |= with_columns;
+        if with_columns {
+            (state.rate, state.left_by_first) = (None, None);
+        } else {
+            state.rate = Some(state.rate.unwrap_or_default().max(rate));
+        }
+    }
+
+    /// After the last correction: whether the step is taken as it is, by the rule of the scene.
+    pub fn check(&self) -> Result<(), Unconverged> {
+        let state = &self.state;
+        let unconverged = self.iterations.filter(|_| state.passes.is_unconverged);
+        let Some(iterations) = unconverged.filter(|own| own.otherwise != Otherwise::Warn) else {
+            return Ok(());
+        };
+        let (change, passes) = (state.last, state.passes.count);
+        let rate = state.passes.rate.unwrap_or(f64::NAN);
+        let rejects = iterations.otherwise == Otherwise::Reject;
+        // The rate falls at least with H, and the last change with its power.
+        let share = (iterations.tolerance / change.of_size).powf(1.0 / f64::from(passes));
+        Err(Unconverged {
+            change,
+            tolerance: iterations.tolerance,
+            passes,
+            rate,
+            share: (rejects && rate < 1.0).then_some(share),
+            rejects,
+        })
+    }
+
+    /// The step is taken after all its corrections: what they tell decides about the columns of the next one, however often that is tried.
+    pub fn accept(&mut self, step: MacroStep) {
+        let (slow, state) = (self.settings.slow, &mut self.state);
+        state.is_slow = state.rate.is_some_and(|rate| rate > slow);
+        let is_borrowed = state.off_by_length.is_some_and(|off| off > 0.0);
+        let before = if step.length == state.length {
+            state.borrowed
+        } else {
+            0
+        };
+        state.borrowed = match is_borrowed && state.passes.count > 0 {
+            true => before + 1,
+            false => 0,
+        };
+        state.length = step.length;
+    }
+
+    /// How the corrections of the step went.
+    pub fn passes(&self) -> Passes {
+        self.state.passes
+    }
+
+    /// Whether it matters what the corrections have missed.
+    pub fn learns(&self) -> bool {
+        self.rule != Jacobian::EveryStep
+    }
+
+    /// Whether the columns at hand belong to the present step.
+    pub fn has_fresh_columns(&self) -> bool {
+        self.state.are_fresh
+    }
+
+    /// After the step: an advance shows what was missed without a pass.
+    pub fn learn(&mut self, missed: Missed) {
+        let is_noise = self.listen(missed);
+        match self.state.are_fresh {
+            // What new columns leave says nothing of how they serve in later steps.
+            true => (self.state.rate, self.state.left_by_first) = (None, None),
+            false => self.note_missed(missed, is_noise),
+        }
+    }
+
+    fn note_missed(&mut self, missed: Missed, is_noise: bool) {
+        let state = &mut self.state;
+        let of_first = rate(missed.by_first, state.first);
+        let of_last = rate(missed.by_last, state.last.of_usual);
+        if state.passes.count == 0 {
+            state.left_by_first = Some(of_last);
+        }
+        let tells_rate = state.passes.count > 0 && !is_noise;
+        state.rate = Some(if tells_rate {
+            of_first.max(of_last)
+        } else {
+            of_first
+        });
+    }
+
+    /// A pass leaves a share of what it has changed; where it leaves most of it and the columns do not explain that, no further pass
+    /// would take it away. Gives whether that is so.
+    fn listen(&mut self, missed: Missed) -> bool {
+        let (settings, state) = (&self.settings, &mut self.state);
+        let left = missed.by_last;
+        let expected = state.rate.unwrap_or_default() * state.last.of_usual;
+        let useless = settings.useless * state.last.of_usual;
+        let is_noise =
+            state.passes.count > 0 && left > (settings.above_noise * expected).max(useless);
+        state.noise = match is_noise {
+            true => state.noise.max(left),
+            false => settings.fading * state.noise,
+        };
+        is_noise
+    }
+
+    /// What is known, to be written.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// Goes on from what was written.
+    pub fn resume(&mut self, state: State) {
+        self.state = state;
+    }
+}
+
+fn larger((one, other): (f64, f64)) -> f64 {
+    one.max(other)
+}
+
+fn rate(size: f64, before: f64) -> f64 {
+    if before > 0.0 { size / before } else { 0.0 }
+}

@@ -1,0 +1,258 @@
+//! The length of a variable macro step: accepted or repeated, and how long the next one is.
+//!
+//! With the scaled error `e_N` of a step of length `H_N`, which falls with the power `p` of the step, the next one is
+//!
+//! ```text
+//! H_{N+1} = H_N  s  e_N^(-0.7/p)  e_{N-1}^(0.4/p),   s = 0.9,
+//! ```
+//!
+//! a proportional-integral controller, so that the length does not swing; within the limits of [`Settings`].
+
+mod settings;
+
+use serde::{Deserialize, Serialize};
+
+use crate::accuracy::{Estimate, Tolerance};
+use crate::policies::step_size::settings::SETTINGS;
+use crate::results::StepStatistics;
+use crate::scene::StepControl;
+use crate::time::MacroStep;
+
+pub use settings::Settings;
+
+/// Chooses the lengths of the macro steps.
+pub struct StepSize {
+    control: StepControl,
+    rule: Rule,
+    tolerance: Tolerance,
+    /// Length of the first step in s.
+    first: f64,
+    state: State,
+}
+
+/// What the controller remembers from step to step.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct State {
+    /// Scaled error of the last accepted step.
+    before: f64,
+    /// Whether the present step is a repeated one.
+    is_repeated: bool,
+    /// The last attempt at the present step whose error was too large.
+    rejected: Option<Rejected>,
+    /// Length that steps do not exceed, and how many more of them.
+    careful: Option<(f64, u32)>,
+    statistics: StepStatistics,
+}
+
+/// Where the lengths come from. If they are known beforehand, every step is accepted, and what remains to be chosen are degrees.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// They follow the error.
+    Free,
+    /// From a run in which they did.
+    Given,
+    /// They are all equal.
+    Equal,
+}
+
+/// Why a step was rejected.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cause {
+    /// The error is larger than allowed.
+    Error {
+        /// That of the step.
+        found: Estimate,
+        /// The error that the step would have had with the degrees of its repetition.
+        next: Estimate,
+    },
+    /// The corrections have not come to an end within their number, and the scene rejects such a step. With this share of the step they
+    /// would just have, if the rate of convergence tells.
+    NotConverged(Option<f64>),
+    /// A worker has refused the look-ahead, or the coupling has no solution.
+    Failed,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+struct Rejected {
+    length: f64,
+    change: f64,
+}
+
+/// How a step is repeated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Repetition {
+    /// With this length in s.
+    pub length: f64,
+    /// Whether the solution has jumped, so that what lies before the step says nothing about it.
+    pub has_jumped: bool,
+}
+
+impl StepSize {
+    /// From a first step of length `first`.
+    pub fn new(rule: Rule, control: StepControl, first: f64, tolerance: Tolerance) -> Self {
+        Self {
+            rule,
+            tolerance,
+            control,
+            first,
+            state: State {
+                before: 1.0,
+                is_repeated: false,
+                rejected: None,
+                careful: None,
+                statistics: StepStatistics::default(),
+            },
+        }
+    }
+
+    /// What error is allowed.
+    pub fn tolerance(&self) -> &Tolerance {
+        &self.tolerance
+    }
+
+    /// What error is allowed, to take the outputs at a macro point that is reached.
+    pub fn tolerance_mut(&mut self) -> &mut Tolerance {
+        &mut self.tolerance
+    }
+
+    /// The tolerance and the limits of the scene.
+    pub fn control(&self) -> &StepControl {
+        &self.control
+    }
+
+    /// Whether the lengths follow the error.
+    pub fn varies(&self) -> bool {
+        self.rule == Rule::Free
+    }
+
+    /// Steps so far, if their lengths follow the error.
+    pub fn statistics(&self) -> Option<StepStatistics> {
+        self.varies().then_some(self.state.statistics)
+    }
+
+    /// Whether a step with this error is too long.
+    pub fn is_too_long(&self, estimate: &Estimate) -> bool {
+        self.varies() && estimate.scaled > 1.0
+    }
+
+    /// Where the lengths come from.
+    pub fn rule(&self) -> Rule {
+        self.rule
+    }
+
+    /// How a step is repeated after this; `None` if it may not be shorter.
+    pub fn repeat(&mut self, step: MacroStep, cause: Cause) -> Option<Repetition> {
+        if step.length <= self.control.least_step {
+            return None;
+        }
+        let state = &mut self.state;
+        let causes = &mut state.statistics.rejected_by_cause;
+        let (count, share) = match cause {
+            Cause::Error { next, .. } => {
+                let share = SETTINGS.safety * next.scaled.powf(-1.0 / next.order as f64);
+                (&mut causes.error, share)
+            }
+            Cause::NotConverged(share) => {
+                let share = share.map_or(SETTINGS.diverged, |share| SETTINGS.safety * share);
+                (&mut causes.not_converged, share)
+            }
+            Cause::Failed => (&mut causes.failed, SETTINGS.failed),
+        };
+        *count += 1;
+        state.statistics.rejected += 1;
+        state.is_repeated = true;
+        let length = step.length * share.clamp(SETTINGS.most_shrinking, SETTINGS.safety);
+        let length = self.allowed(length);
+        let has_jumped = match cause {
+            Cause::Error { found, next } => self.has_jumped(step, found.change, next.change),
+            Cause::NotConverged(_) | Cause::Failed => {
+                let longest = length.max(step.length / SETTINGS.most_growth);
+                self.state.careful = Some((longest, SETTINGS.careful_steps));
+                false
+            }
+        };
+        Some(Repetition { length, has_jumped })
+    }
+
+    /// Whether the multipliers change hardly less in the present attempt at a step than in the one before, which was longer.
+    /// The next attempt has the degrees that belong to the change `next`.
+    fn has_jumped(&mut self, step: MacroStep, change: f64, next: f64) -> bool {
+        let length = step.length;
+        let change_of_next = Rejected {
+            length,
+            change: next,
+        };
+        let earlier = self.state.rejected.replace(change_of_next);
+        earlier.is_some_and(|earlier| {
+            let expected = (length / earlier.length).powf(SETTINGS.smooth_order);
+            change > expected * earlier.change
+        })
+    }
+
+    /// Takes the step; the length of the next one in s. The `estimate` is that of the degrees that follow; errors before are compared only
+    /// if the degrees stay.
+    pub fn accept(&mut self, step: MacroStep, estimate: &Estimate, has_equal_degrees: bool) -> f64 {
+        let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
+        let scaled = estimate.scaled.max(SETTINGS.least_error);
+        let possible = SETTINGS.safety * power(scaled, -1.0);
+        let smooth = match has_equal_degrees {
+            true => {
+                let before = power(self.state.before, SETTINGS.proportional);
+                SETTINGS.safety * power(scaled, -SETTINGS.integral) * before
+            }
+            false => possible,
+        };
+        let state = &mut self.state;
+        let most = if state.is_repeated {
+            1.0
+        } else {
+            SETTINGS.most_growth
+        };
+        let keeps = (SETTINGS.keep_from..=SETTINGS.keep_to).contains(&possible);
+        let mut wish = match keeps {
+            true => step.length,
+            false => step.length * smooth.clamp(SETTINGS.most_shrinking, most),
+        };
+        state.careful = state.careful.filter(|(_, steps)| *steps > 0);
+        if let Some((longest, steps)) = &mut state.careful {
+            wish = wish.min(*longest);
+            *steps -= 1;
+        }
+        state.before = scaled;
+        state.is_repeated = false;
+        state.rejected = None;
+        state.statistics.accept(step);
+        let next = match wish == step.length {
+            true => wish,
+            false => self.allowed(wish),
+        };
+        if self.varies() {
+            let (error, order) = (estimate.scaled, estimate.order);
+            tracing::debug!(H = step.length, error, order, next_H = next, "accepted");
+        }
+        next
+    }
+
+    /// The longest allowed length that is no longer than this one.
+    fn allowed(&self, length: f64) -> f64 {
+        let octaves = (length / self.first * (1.0 + SETTINGS.rounding)).log2();
+        let per_octave = SETTINGS.lengths_per_octave;
+        let exponent = (per_octave * octaves).floor() / per_octave;
+        let StepControl {
+            least_step,
+            greatest_step,
+            ..
+        } = self.control;
+        (self.first * exponent.exp2()).clamp(least_step, greatest_step)
+    }
+
+    /// What is remembered, to be written.
+    pub fn state(&self) -> State {
+        self.state
+    }
+
+    /// Goes on from what was written.
+    pub fn resume(&mut self, state: State) {
+        self.state = state;
+    }
+}

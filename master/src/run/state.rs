@@ -1,0 +1,121 @@
+//! What a run is at a macro point, as one value that can be written and read back.
+
+use serde::{Deserialize, Serialize};
+
+use linchpin_proto::v1;
+use prost::Message;
+
+use super::CoSimulation;
+use crate::accuracy::tolerance;
+use crate::error::RunError;
+use crate::macro_step::{Corrector, CorrectorState, look_ahead};
+use crate::methods::Saved;
+use crate::policies::degree::{self, AutomaticDegrees};
+use crate::policies::{columns, iteration, step_size};
+use crate::results::{Guard, Integrations, Statistics};
+use crate::time::{MacroStep, TimePlan};
+
+/// All that a run knows at a macro point, but for the states of the solvers, which are their workers', and for what its scene and the
+/// workers' descriptions say. Any serde format keeps it that keeps all bits of numbers, also of infinite ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunState {
+    plan: TimePlan,
+    /// The last macro step, which ends at the macro point.
+    last: MacroStep,
+    method: Saved,
+    corrector: Option<CorrectorState>,
+    /// Columns of conditions at macro points, and whether new ones are wanted.
+    point: Option<(columns::State, bool)>,
+    iteration: iteration::State,
+    step_size: Option<(step_size::State, tolerance::State)>,
+    degrees: Option<degree::State>,
+    guard: Guard,
+    statistics: Statistics,
+    workers: Vec<WorkerState>,
+}
+
+/// What the master knows of one worker.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct WorkerState {
+    /// Outputs at the macro point.
+    outputs: Vec<f64>,
+    exchanges: u64,
+    asked: Integrations,
+    /// What it reported so far, in the encoding of the contract.
+    work: Vec<u8>,
+}
+
+impl CoSimulation {
+    /// The run at the present macro point.
+    pub fn state(&self) -> RunState {
+        let workers = self.run.workers.subsystems.iter().map(|own| WorkerState {
+            outputs: own.outputs.clone(),
+            exchanges: own.exchanges,
+            asked: own.asked,
+            work: own.work.encode_to_vec(),
+        });
+        RunState {
+            plan: self.run.plan.clone(),
+            last: self.row.step(),
+            method: self.run.method.state(),
+            corrector: self.run.corrector.as_ref().map(Corrector::state),
+            point: self
+                .run
+                .point
+                .as_ref()
+                .map(|point| (point.columns().state(), point.is_wanted)),
+            iteration: self.run.iteration.state(),
+            step_size: self
+                .run
+                .step_size
+                .as_ref()
+                .map(|own| (own.state(), own.tolerance().state())),
+            degrees: self.run.degrees.as_ref().map(AutomaticDegrees::state),
+            guard: self.guard.clone(),
+            statistics: self.statistics.clone(),
+            workers: workers.collect(),
+        }
+    }
+
+    /// Goes on from `state` in place of the start of the scene, with the workers of `stopped`, which stands at the macro point of that
+    /// state. The look-ahead over the next macro step is asked for anew, in an exchange of its own; all results are those that `stopped`
+    /// would have had, bit by bit.
+    ///
+    /// # Errors
+    /// What ends the run.
+    pub fn resume(&mut self, state: RunState, stopped: Self) -> Result<(), RunError> {
+        self.run.workers = stopped.run.workers;
+        let subsystems = self.run.workers.subsystems.iter_mut();
+        for (subsystem, state) in subsystems.zip(state.workers) {
+            subsystem.outputs = state.outputs;
+            subsystem.exchanges = state.exchanges;
+            subsystem.asked = state.asked;
+            // What was encoded by the same contract can be read.
+            subsystem.work = v1::Work::decode(&state.work[..]).unwrap_or_default();
+        }
+        self.run.plan = state.plan;
+        self.run.method.resume(&state.method)?;
+        if let (Some(own), Some(state)) = (&mut self.run.corrector, state.corrector) {
+            own.resume(state);
+        }
+        if let (Some(point), Some((columns, is_wanted))) = (&mut self.run.point, state.point) {
+            point.columns_mut().resume(columns);
+            point.is_wanted = is_wanted;
+        }
+        self.run.iteration.resume(state.iteration);
+        if let (Some(own), Some((state, tolerance))) = (&mut self.run.step_size, state.step_size) {
+            own.resume(state);
+            own.tolerance_mut().resume(tolerance);
+        }
+        if let (Some(own), Some(state)) = (&mut self.run.degrees, state.degrees) {
+            own.resume(state);
+        }
+        self.guard = state.guard;
+        self.statistics = state.statistics;
+        self.read_row(state.last);
+        match self.run.plan.step() {
+            Some(step) => look_ahead(&mut self.run, step, None),
+            None => Ok(()),
+        }
+    }
+}

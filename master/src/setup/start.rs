@@ -1,0 +1,318 @@
+//! From a scene to a co-simulation at its first macro point.
+
+use linchpin_proto::v1;
+
+use super::degrees::{check_degrees, load_forms};
+use super::initial::InitialState;
+use super::options::{Connect, Options};
+use super::refusal::{Refusals, refuse_setup};
+use super::steps::{plan_of, step_size_of};
+use super::tie::{
+    connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
+};
+use super::{panels, velocities};
+use crate::error::RunError;
+use crate::joint::Level;
+use crate::layout::{Coupled, Layout};
+use crate::macro_step::{Corrector, Jacobian, PointJacobian, Run, look_ahead, reach};
+use crate::methods::{Built, Given, build, level_of};
+use crate::policies::columns::{Basis, Columns, Measuring};
+use crate::policies::degree::AutomaticDegrees;
+use crate::policies::iteration::IterationControl;
+use crate::results::{Guard, Mechanism, Row, Statistics, StepDegrees};
+use crate::run::CoSimulation;
+use crate::scene::{self, Coupling, Degree, Method, Scene};
+use crate::system::{Differentiation, System};
+use crate::time::at_start;
+use crate::workers::{Samples, Subsystem, Workers};
+
+impl CoSimulation {
+    /// Connects to all workers, initialises them, closes the joints and looks ahead over the first macro step.
+    pub fn start(
+        scene: &Scene,
+        connect: &mut Connect<'_>,
+        options: &Options,
+    ) -> Result<Self, RunError> {
+        let mut subsystems = connect_all(scene, connect)?;
+        let models = models_of(scene, &subsystems)?;
+        let joints = mark(scene, &models)?;
+        let connections = connect_signals(scene, &models)?;
+        let coupled = Coupled {
+            subsystems: names(scene),
+            forms: load_forms(scene, &models)?,
+            joints: &joints,
+            connections: &connections,
+        };
+        let layout = layout_of(scene, &coupled)?;
+        let highest = check_degrees(scene, &models, &layout)?;
+        refuse_mixed_degrees(scene, &layout)?;
+        let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
+        if options.record_markers {
+            record_markers(&models, &layout.outputs, &mut recorded);
+        }
+        let mut requests: Vec<_> = (0..subsystems.len())
+            .map(|number| initialize_request(scene, number, &models, &layout, &recorded[number]))
+            .collect();
+        let mut refusals = Refusals::default();
+        for (number, subsystem) in subsystems.iter_mut().enumerate() {
+            let model = &models[number];
+            let capabilities = model.capabilities.unwrap_or_default();
+            subsystem.repeats_steps = capabilities.repeats_step_sequence;
+            subsystem.offers_derivatives = capabilities.directional_derivatives;
+            if let Err(error) = subsystem.initialize(requests[number].clone()) {
+                refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
+            }
+        }
+        refusals.finish()?;
+        let samples = scene.output.interval;
+        let samples = samples.map(|interval| Samples::new(scene.t_start, interval));
+        let mut workers = Workers::new(subsystems, samples, layout.variables());
+        let free_velocities =
+            velocities::choose(scene, &coupled, &models, &mut requests, &mut workers)?;
+        let initial = initial_state(scene, &coupled, &layout, &workers, options)?;
+        initial.read_outputs(scene.t_start, &layout, &mut workers)?;
+        let mut run = assemble(scene, options, layout, workers, initial, highest)?;
+        begin(&mut run)?;
+        let shows_step = scene.coupling.step_control.is_some();
+        let subsystems = run.workers.subsystems.iter();
+        let named = subsystems.map(|own| (own.name(), &own.output_names[..]));
+        let degrees = run.degrees.as_ref();
+        let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
+        let row = Row::new(&run.layout, named, shows_step, degrees);
+        let mechanism = options
+            .record_markers
+            .then(|| Mechanism::new(scene, &models, &joints, row.columns()));
+        let guard = match &scene.coupling.method {
+            _ if options.watch_nothing => Guard::off(),
+            Method::Penalty { .. } => Guard::of_springs(),
+            _ => Guard::of_rigid_joints(),
+        };
+        let mut statistics = Statistics::new(&run.layout);
+        statistics.free_velocities = free_velocities;
+        let mut simulation = Self {
+            multipliers: vec![0.0; run.layout.rows.len()],
+            run,
+            sample_row: row.clone(),
+            row,
+            mechanism,
+            guard,
+            statistics,
+        };
+        simulation.read_row(at_start(scene.t_start));
+        panels::check(scene, &simulation.row)?;
+        Ok(simulation)
+    }
+}
+
+/// The method of the scene and its policies, at the first macro point.
+fn assemble(
+    scene: &Scene,
+    options: &Options,
+    layout: Layout,
+    workers: Workers,
+    initial: InitialState,
+    highest: StepDegrees,
+) -> Result<Run, RunError> {
+    let coupling = &scene.coupling;
+    let plan = plan_of(scene, options);
+    let step_size = step_size_of(scene, options, &layout, &workers);
+    let given = Given {
+        layout: &layout,
+        outputs: &workers.now(),
+        values: initial.variables,
+        attitudes: initial.attitudes,
+        established: options.established.as_deref(),
+    };
+    let Built { method, end, point } = build(scene, given)?;
+    let subsystems = workers.subsystems.iter();
+    let differentiation: Vec<Differentiation> =
+        subsystems.map(Subsystem::differentiation).collect();
+    let measuring = measuring(coupling);
+    let jacobian = |(system, levels): (System, &'static [Level])| Jacobian {
+        columns: Columns::new(
+            measuring,
+            levels,
+            &layout,
+            system.unknowns(),
+            &differentiation,
+        ),
+        system,
+    };
+    let first = plan.step().map_or(0.0, |step| step.length);
+    let given = options.degrees.clone();
+    Ok(Run {
+        degrees: AutomaticDegrees::new(coupling.method, &layout, highest, first, given),
+        corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),
+        point: point.map(|point| PointJacobian::new(jacobian(point))),
+        iteration: IterationControl::new(coupling),
+        refusal: None,
+        layout,
+        workers,
+        method,
+        step_size,
+        plan,
+    })
+}
+
+/// Lets the method look ahead over the first macro step, or solve the conditions at the first macro point. The scene has checked that
+/// the time span is at least one step long.
+fn begin(run: &mut Run) -> Result<(), RunError> {
+    let first = run.plan.step().unwrap_or_else(|| at_start(run.plan.t()));
+    if let Some((mut own, policies)) = run.correcting() {
+        if let Some(degrees) = policies.degrees {
+            own.apply(degrees);
+        }
+        return look_ahead(run, first, Some(true));
+    }
+    if let Some(point) = &mut run.point {
+        run.workers.forgo_advance();
+        point.request(&mut run.workers, &run.layout, &*run.method, first.start);
+        run.workers.exchange(first)?;
+        reach(run, first)?;
+    }
+    Ok(())
+}
+
+/// Asks the worker of every subsystem what the scene's model of it offers; starts no instance.
+pub fn describe(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<v1::Model>, RunError> {
+    models_of(scene, &connect_all(scene, connect)?)
+}
+
+fn models_of(scene: &Scene, subsystems: &[Subsystem]) -> Result<Vec<v1::Model>, RunError> {
+    let all = subsystems.iter().enumerate();
+    all.map(|(number, subsystem)| model_of(scene, number, subsystem))
+        .collect()
+}
+
+fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem>, RunError> {
+    let connect_one = |subsystem: &scene::Subsystem| {
+        let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
+            subsystem: subsystem.name.clone(),
+            source: Box::new(source),
+        })?;
+        let (name, model) = (&subsystem.name, &subsystem.model);
+        tracing::debug!(subsystem = name, model, "connected");
+        Ok(Subsystem::new(&subsystem.name, connection))
+    };
+    scene.subsystems.iter().map(connect_one).collect()
+}
+
+fn names(scene: &Scene) -> Vec<&str> {
+    let subsystems = scene.subsystems.iter();
+    subsystems
+        .map(|subsystem| subsystem.name.as_str())
+        .collect()
+}
+
+fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
+    let method = &scene.coupling.method;
+    let layout = match method {
+        Method::Hermite { .. } => Layout::with_rates(coupled, level_of(method)),
+        _ => Layout::new(coupled, level_of(method)),
+    };
+    let mut layout = layout.map_err(|lacks| refuse_marker(scene, lacks))?;
+    if method.keeps_columns() && scene.coupling.jacobian == scene::Jacobian::Reuse {
+        layout.add_frames(coupled);
+    }
+    Ok(layout)
+}
+
+fn initial_state(
+    scene: &Scene,
+    coupled: &Coupled<'_>,
+    layout: &Layout,
+    workers: &Workers,
+    options: &Options,
+) -> Result<InitialState, RunError> {
+    let accepts_open = options.accept_open_joints;
+    match scene.coupling.method {
+        _ if options.established.is_some() => Ok(InitialState::at_rest(layout.variables())),
+        Method::Penalty { .. } => InitialState::unloaded(scene, layout, workers, accepts_open),
+        _ => InitialState::find(scene, coupled, layout, workers, accepts_open),
+    }
+}
+
+/// A signal and the load of a joint at one input are one polynomial, so they must have one degree.
+fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> {
+    let (degree, exchanged) = (scene.coupling.degree, scene.coupling.exchanged_degree);
+    let is_hermite = matches!(scene.coupling.method, Method::Hermite { .. });
+    let is_loaded = |connection: &&scene::Connection| {
+        let (subsystem, name) = &connection.to;
+        let mut inputs = layout.inputs_of(*subsystem).iter();
+        inputs.any(|input| {
+            !input.is_joint_input && input.name == *name && input.drives_load(layout.rows.len())
+        })
+    };
+    match scene.connections.iter().find(is_loaded) {
+        Some(connection) if is_hermite => {
+            let (subsystem, input) = &connection.to;
+            let message = format!(
+                "\"{}.{input}\" takes this signal and the load of a joint, which have different curves with Hermite coupling",
+                scene.subsystems[*subsystem].name
+            );
+            let help = "let the signal act at another marker, or choose another coupling.method";
+            let key = format!("connection.{}.to", connection.name);
+            Err(scene.error(&key, message, Some(help.into())).into())
+        }
+        Some(connection) if degree != exchanged || degree == Degree::Automatic => {
+            let (subsystem, input) = &connection.to;
+            let differ = match degree == exchanged {
+                true => "follow estimates of their own",
+                false => "differ",
+            };
+            let message = format!(
+                "\"{}.{input}\" takes this signal and the load of a joint, but coupling.degree = {degree} and \
+                 coupling.exchanged_degree = {exchanged} {differ}",
+                scene.subsystems[*subsystem].name
+            );
+            let help = "give both the same whole number, or let the signal act at another marker";
+            let key = format!("connection.{}.to", connection.name);
+            Err(scene.error(&key, message, Some(help.into())).into())
+        }
+        _ => Ok(()),
+    }
+}
+
+fn initialize_request(
+    scene: &Scene,
+    number: usize,
+    models: &[v1::Model],
+    layout: &Layout,
+    recorded: &[String],
+) -> v1::InitializeRequest {
+    let written = &scene.subsystems[number];
+    v1::InitializeRequest {
+        model: models[number].name.clone(),
+        parameters: written.parameters.clone(),
+        solver: written.solver.clone(),
+        t_start: scene.t_start,
+        inputs: input_names(layout, number, false),
+        joint_inputs: input_names(layout, number, true),
+        joint_loads: layout.joint_loads[number].clone(),
+        coupling_outputs: layout.outputs[number].clone(),
+        recorded_outputs: recorded.to_vec(),
+        ..v1::InitializeRequest::default()
+    }
+}
+
+fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<String> {
+    let inputs = layout.inputs_of(number).iter();
+    let inputs = inputs.filter(|input| input.is_joint_input == are_joint_inputs);
+    inputs.map(|input| input.name.clone()).collect()
+}
+
+/// Where steps or degrees vary, the past nodes of the polynomials do: columns that stay in use must serve with any of them. With Hermite coupling there
+/// are as many powers as shapes, and between lengths they are found more easily: their responses do not pass through zero.
+fn measuring(coupling: &Coupling) -> Measuring {
+    let is_hermite = matches!(coupling.method, Method::Hermite { .. });
+    let varies = coupling.step_control.is_some() || coupling.has_automatic_degree();
+    let stay = coupling.jacobian == scene::Jacobian::Reuse;
+    Measuring {
+        increment: coupling.increment,
+        basis: match stay && (varies || is_hermite) {
+            true => Basis::Powers,
+            false => Basis::Shapes,
+        },
+        stay,
+    }
+}

@@ -1,0 +1,47 @@
+//! Where the macro points lie, and what controls the steps.
+
+use super::options::Options;
+use crate::accuracy::Tolerance;
+use crate::layout::Layout;
+use crate::policies::step_size::{Rule, StepSize};
+use crate::scene::{Scene, StepControl};
+use crate::time::TimePlan;
+use crate::workers::Workers;
+
+/// Where the macro points lie: as the scene says, unless a study gives the steps.
+pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
+    let (start, end, first) = (scene.t_start, scene.t_end, scene.coupling.macro_step);
+    match (&options.step_lengths, scene.coupling.step_control) {
+        (Some(lengths), _) => TimePlan::given(start, end, lengths.clone()),
+        (None, Some(_)) => TimePlan::variable(start, end, first),
+        (None, None) => TimePlan::equidistant(start, end, first),
+    }
+}
+
+/// Against which the errors of degrees are compared where no error is too large: only their ratios matter.
+const ANY_ERROR: StepControl = StepControl {
+    tolerance: 1.0,
+    absolute_tolerance: 1e-3,
+    least_step: 0.0,
+    greatest_step: f64::INFINITY,
+};
+
+/// The control of the steps, if the scene asks for one, or of the degrees; outputs at the start are known.
+pub(super) fn step_size_of(
+    scene: &Scene,
+    options: &Options,
+    layout: &Layout,
+    workers: &Workers,
+) -> Option<StepSize> {
+    let coupling = &scene.coupling;
+    let (rule, control) = match (coupling.step_control, &options.step_lengths) {
+        (Some(control), None) => (Rule::Free, control),
+        _ if !coupling.has_automatic_degree() => return None,
+        (Some(control), Some(_)) => (Rule::Given, control),
+        (None, _) => (Rule::Equal, ANY_ERROR),
+    };
+    let subsystems = workers.subsystems.iter();
+    let solvers = subsystems.map(|own| own.tolerance.unwrap_or_default());
+    let tolerance = Tolerance::new(&control, layout, solvers.collect(), &workers.now());
+    Some(StepSize::new(rule, control, coupling.macro_step, tolerance))
+}

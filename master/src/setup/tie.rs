@@ -1,0 +1,333 @@
+//! Finds models, markers and outputs that a scene names in what the workers describe.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use linchpin_proto::v1::{self, MarkerKind};
+use linchpin_proto::version;
+
+use super::geometry::law_of;
+use super::refusal::refuse_setup;
+use crate::error::RunError;
+use crate::joint::Level;
+use crate::layout::{Lack, MarkedConnection, MarkedJoint, MarkerLacks, column_name};
+use crate::results::contact_outputs;
+use crate::scene::nearest::nearest;
+use crate::scene::{Connection, Joint, Scene, Side};
+use crate::time::at_start;
+use crate::workers::Subsystem;
+
+/// Asks a worker for its models and chooses the one that the scene wants.
+pub(super) fn model_of(
+    scene: &Scene,
+    number: usize,
+    subsystem: &Subsystem,
+) -> Result<v1::Model, RunError> {
+    let written = &scene.subsystems[number];
+    let description = subsystem
+        .describe(None, &BTreeMap::new())
+        .map_err(|error| subsystem.failed(error, at_start(scene.t_start)))?;
+    version::negotiate(description.protocol.as_ref()).map_err(|source| RunError::Incompatible {
+        subsystem: written.name.clone(),
+        source,
+    })?;
+    let model = choose_model(scene, number, &description.models)?;
+    // What the model offers may depend on its parameters.
+    let configured = subsystem
+        .describe(Some(&model.name), &written.parameters)
+        .map_err(|error| refuse_setup(scene, number, model, subsystem, error))?;
+    let mut configured = configured.models.into_iter();
+    let same = configured.find(|configured| configured.name == model.name);
+    Ok(same.unwrap_or_else(|| model.clone()))
+}
+
+/// The model that the scene names, or the only one.
+fn choose_model<'a>(
+    scene: &Scene,
+    number: usize,
+    models: &'a [v1::Model],
+) -> Result<&'a v1::Model, RunError> {
+    let written = &scene.subsystems[number];
+    let key = format!("subsystem.{}.model", written.name);
+    let names: Vec<&str> = models.iter().map(|model| model.name.as_str()).collect();
+    let place = match &written.model {
+        Some(name) => names
+            .iter()
+            .position(|known| known == name)
+            .ok_or_else(|| {
+                scene.error(
+                    &key,
+                    format!(
+                        "the worker has no model \"{name}\"; it has: {}",
+                        names.join(", ")
+                    ),
+                    did_you_mean(name, &names),
+                )
+            })?,
+        None if names.len() == 1 => 0,
+        None => {
+            let message = format!(
+                "the worker has {} models: {}",
+                names.len(),
+                names.join(", ")
+            );
+            return Err(scene
+                .error(&key, message, Some("say which with `model = ...`".into()))
+                .into());
+        }
+    };
+    Ok(&models[place])
+}
+
+/// The markers that the joints of the scene hold.
+pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoint>, RunError> {
+    let mark_one = |joint: &Joint| {
+        let marker = |side: &Side, end: &str| {
+            let key = format!("joint.{}.{end}", joint.name);
+            let marker = marker_of(scene, &key, side, &models[side.subsystem])?;
+            Ok::<_, RunError>((side.subsystem, marker))
+        };
+        let ends = [marker(&joint.a, "a")?, marker(&joint.b, "b")?];
+        let kind = kind_of(scene, joint, &ends)?;
+        Ok(MarkedJoint {
+            name: joint.name.clone(),
+            joint: Arc::new(law_of(scene, joint, kind)?),
+            ends,
+        })
+    };
+    scene.joints.iter().map(mark_one).collect()
+}
+
+/// Names of the result columns of all multipliers of a scene whose subsystems have these models.
+///
+/// # Errors
+/// A joint names a marker that does not exist, or one that it cannot hold.
+pub fn multiplier_columns(scene: &Scene, models: &[v1::Model]) -> Result<Vec<String>, RunError> {
+    let joints = mark(scene, models)?;
+    let names = joints.iter().flat_map(|joint| {
+        let rows = 0..joint.joint.len();
+        rows.map(|row| column_name(&joint.name, "lambda", joint.joint.name(row)))
+    });
+    Ok(names.collect())
+}
+
+/// The kind of the two markers of a joint, which must be the same.
+fn kind_of(
+    scene: &Scene,
+    joint: &Joint,
+    [(_, a), (_, b)]: &[(usize, v1::Marker); 2],
+) -> Result<MarkerKind, RunError> {
+    if a.kind == b.kind {
+        return Ok(a.kind());
+    }
+    let message = format!("it joins a {} and a {} marker", kind_name(a), kind_name(b));
+    let help = "both markers must be of the same kind";
+    let key = format!("joint.{}", joint.name);
+    Err(scene.error(&key, message, Some(help.into())).into())
+}
+
+/// The signal connections of the scene, with outputs and inputs that the models have.
+pub(super) fn connect_signals(
+    scene: &Scene,
+    models: &[v1::Model],
+) -> Result<Vec<MarkedConnection>, RunError> {
+    let mut driven: Vec<&(usize, String)> = Vec::new();
+    let mut connections = Vec::new();
+    for connection in &scene.connections {
+        find_variable(scene, connection, "from", models)?;
+        find_variable(scene, connection, "to", models)?;
+        if driven.contains(&&connection.to) {
+            let (subsystem, input) = &connection.to;
+            let subsystem = &scene.subsystems[*subsystem].name;
+            let message =
+                format!("\"{subsystem}.{input}\" is driven by another connection already");
+            let help = "an input takes one signal";
+            let key = format!("connection.{}.to", connection.name);
+            return Err(scene.error(&key, message, Some(help.into())).into());
+        }
+        driven.push(&connection.to);
+        connections.push(MarkedConnection {
+            from: connection.from.clone(),
+            to: connection.to.clone(),
+        });
+    }
+    Ok(connections)
+}
+
+fn find_variable(
+    scene: &Scene,
+    connection: &Connection,
+    end: &str,
+    models: &[v1::Model],
+) -> Result<(), RunError> {
+    let is_source = end == "from";
+    let (subsystem, name) = match is_source {
+        true => &connection.from,
+        false => &connection.to,
+    };
+    let model = &models[*subsystem];
+    let (what, variables) = match is_source {
+        true => ("output", &model.outputs),
+        false => ("input", &model.inputs),
+    };
+    let known: Vec<&str> = variables
+        .iter()
+        .map(|variable| variable.name.as_str())
+        .collect();
+    if known.contains(&name.as_str()) {
+        return Ok(());
+    }
+    let message = format!(
+        "model \"{}\" has no {what} \"{name}\"; it has: {}",
+        model.name,
+        known.join(", ")
+    );
+    let key = format!("connection.{}.{end}", connection.name);
+    Err(scene
+        .error(&key, message, did_you_mean(name, &known))
+        .into())
+}
+
+fn kind_name(marker: &v1::Marker) -> &'static str {
+    match marker.kind() {
+        MarkerKind::Scalar => "scalar",
+        MarkerKind::Planar => "planar",
+        MarkerKind::Spatial => "spatial",
+        MarkerKind::Unspecified => "unspecified",
+    }
+}
+
+fn marker_of(
+    scene: &Scene,
+    key: &str,
+    side: &Side,
+    model: &v1::Model,
+) -> Result<v1::Marker, RunError> {
+    let names: Vec<&str> = model
+        .markers
+        .iter()
+        .map(|marker| marker.name.as_str())
+        .collect();
+    let subsystem = &scene.subsystems[side.subsystem].name;
+    match &side.marker {
+        None if model.markers.len() == 1 => Ok(model.markers[0].clone()),
+        None => {
+            let message = format!(
+                "subsystem \"{subsystem}\" (model \"{}\") has {} markers: {}",
+                model.name,
+                names.len(),
+                names.join(", ")
+            );
+            let help = format!("write \"{subsystem}.MARKER\"");
+            Err(scene.error(key, message, Some(help)).into())
+        }
+        Some(name) => {
+            let found = model.markers.iter().find(|marker| &marker.name == name);
+            found.cloned().ok_or_else(|| {
+                let message = format!(
+                    "model \"{}\" has no marker \"{name}\"; it has: {}",
+                    model.name,
+                    names.join(", ")
+                );
+                scene.error(key, message, did_you_mean(name, &names)).into()
+            })
+        }
+    }
+}
+
+/// The error for a marker that cannot take part in a joint.
+pub(super) fn refuse_marker(scene: &Scene, lacks: MarkerLacks) -> RunError {
+    let joint = &scene.joints[lacks.joint];
+    let (side, end) = if lacks.end == 0 {
+        (&joint.a, "a")
+    } else {
+        (&joint.b, "b")
+    };
+    let subsystem = &scene.subsystems[side.subsystem].name;
+    let (what, help) = match lacks.what {
+        Lack::Output(Level::Acceleration) => (
+            "the acceleration that an index-1 or explicit coupling needs",
+            "choose coupling.index = 2 or 3",
+        ),
+        Lack::Output(Level::Velocity) => (
+            "the velocity that the coupling needs",
+            "choose coupling.index = 3",
+        ),
+        Lack::Output(Level::Position) => ("a position", "the worker must describe one"),
+        Lack::Load => (
+            "an input for the joint's load",
+            "the worker must describe one",
+        ),
+    };
+    let message = format!("the marker of subsystem \"{subsystem}\" does not offer {what}");
+    scene
+        .error(
+            &format!("joint.{}.{end}", joint.name),
+            message,
+            Some(help.into()),
+        )
+        .into()
+}
+
+/// The outputs to record of each subsystem beyond `coupling`, as `output.variables` lists them.
+pub(super) fn recorded_outputs(
+    scene: &Scene,
+    models: &[v1::Model],
+    coupling: &[Vec<String>],
+) -> Result<Vec<Vec<String>>, RunError> {
+    let mut recorded = vec![Vec::new(); models.len()];
+    for variable in scene.output.variables.iter().flatten() {
+        let refuse = |message: String, help| scene.error("output.variables", message, help);
+        let Some((subsystem, output)) = variable.split_once('.') else {
+            let message = format!("\"{variable}\" is not SUBSYSTEM.OUTPUT");
+            return Err(refuse(message, None).into());
+        };
+        let names: Vec<&str> = scene.subsystems.iter().map(|s| s.name.as_str()).collect();
+        let number = names
+            .iter()
+            .position(|name| *name == subsystem)
+            .ok_or_else(|| {
+                let message = format!("\"{variable}\": there is no subsystem \"{subsystem}\"");
+                refuse(message, did_you_mean(subsystem, &names))
+            })?;
+        let outputs: Vec<&str> = models[number]
+            .outputs
+            .iter()
+            .map(|output| output.name.as_str())
+            .collect();
+        if !outputs.contains(&output) {
+            let message = format!(
+                "\"{variable}\": model \"{}\" has no output \"{output}\"; it has: {}",
+                models[number].name,
+                outputs.join(", ")
+            );
+            return Err(refuse(message, did_you_mean(output, &outputs)).into());
+        }
+        let output = output.to_owned();
+        if !coupling[number].contains(&output) && !recorded[number].contains(&output) {
+            recorded[number].push(output);
+        }
+    }
+    Ok(recorded)
+}
+
+/// Adds what a picture of the moving mechanism needs to the outputs to record, as far as it is not there and not in
+/// `coupling`: the positions of all markers, and what their contacts do.
+pub(super) fn record_markers(
+    models: &[v1::Model],
+    coupling: &[Vec<String>],
+    recorded: &mut [Vec<String>],
+) {
+    for (number, model) in models.iter().enumerate() {
+        let positions = model.markers.iter().flat_map(|marker| &marker.position);
+        for output in positions.cloned().chain(contact_outputs(model)) {
+            if !coupling[number].contains(&output) && !recorded[number].contains(&output) {
+                recorded[number].push(output);
+            }
+        }
+    }
+}
+
+pub(super) fn did_you_mean(name: &str, known: &[&str]) -> Option<String> {
+    nearest(name, known.iter().copied()).map(|near| format!("did you mean \"{near}\"?"))
+}

@@ -1,0 +1,142 @@
+//! What the next requests to all workers ask for.
+
+use super::all::Workers;
+use super::look::Look;
+use super::subsystem::Ahead;
+use crate::layout::{Layout, Over};
+use crate::signal::Curves;
+use crate::system::Perturbation;
+use crate::time::MacroStep;
+
+impl Workers {
+    /// Makes every subsystem's next request advance over `step` with these curves.
+    pub(crate) fn request_advance(
+        &mut self,
+        layout: &Layout,
+        step: MacroStep,
+        curves: &dyn Curves,
+    ) {
+        self.find_samples(step);
+        for number in 0..self.subsystems.len() {
+            self.fill_advance(layout, number, step, curves);
+        }
+    }
+
+    /// Makes the next request to one subsystem advance over `step` with these curves.
+    pub(crate) fn request_advance_of(
+        &mut self,
+        layout: &Layout,
+        number: usize,
+        step: MacroStep,
+        curves: &dyn Curves,
+    ) {
+        self.find_samples(step);
+        self.fill_advance(layout, number, step, curves);
+    }
+
+    fn find_samples(&mut self, step: MacroStep) {
+        if let Some(samples) = &mut self.samples {
+            samples.find(step);
+        }
+    }
+
+    fn fill_advance(
+        &mut self,
+        layout: &Layout,
+        number: usize,
+        step: MacroStep,
+        curves: &dyn Curves,
+    ) {
+        let subsystem = &mut self.subsystems[number];
+        let inputs = layout.inputs_of(number);
+        let advance = subsystem.advance_to_fill();
+        advance.t = step.start;
+        advance.step = step.length;
+        advance.signals.resize_with(inputs.len(), Default::default);
+        advance.samples.clear();
+        if let Some(samples) = &self.samples {
+            advance.samples.extend_from_slice(samples.offsets());
+        }
+        let mut over = Over {
+            curves,
+            memory: &mut self.memory,
+        };
+        for input in inputs {
+            input.signal(&mut over, subsystem.advance_signal(input.place));
+        }
+    }
+
+    /// Makes every subsystem's next request look ahead; subsystems whose outputs nobody reads have nothing to tell.
+    pub(crate) fn request_look(&mut self, layout: &Layout, look: Look<'_>) {
+        for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
+            if look.ahead == Ahead::Step {
+                subsystem.looks_ahead_for = look.cause;
+            }
+            if !subsystem.is_read() {
+                continue;
+            }
+            let inputs = layout.inputs_of(number);
+            let request = subsystem.look(look.ahead);
+            request.t = look.t;
+            request.step = look.length;
+            request.signals.resize_with(inputs.len(), Default::default);
+            let of_subsystem = |one: &&Perturbation| layout.inputs[one.input].subsystem == number;
+            let own = look.perturbed.iter().filter(of_subsystem);
+            let (mut perturbed, mut directions) = (0, 0);
+            for one in own {
+                match one.increment {
+                    Some(_) => perturbed += 1,
+                    None => directions += 1,
+                }
+            }
+            request.perturbed.resize_with(perturbed, Default::default);
+            request.directions.resize_with(directions, Default::default);
+            let mut over = Over {
+                curves: look.curves,
+                memory: &mut self.memory,
+            };
+            for input in inputs {
+                input.signal(&mut over, subsystem.look_signal(look.ahead, input.place));
+            }
+        }
+        self.request_perturbed(layout, look);
+    }
+
+    fn request_perturbed(&mut self, layout: &Layout, look: Look<'_>) {
+        let mut over = Over {
+            curves: look.raised,
+            memory: &mut self.memory,
+        };
+        for one in look.perturbed {
+            let input = &layout.inputs[one.input];
+            let subsystem = &mut self.subsystems[input.subsystem];
+            match one.increment {
+                Some(increment) => {
+                    let signal = subsystem.perturbed_signal(look.ahead, one.place, input.place);
+                    input.raised_signal(&mut over, &one.shape, increment, signal);
+                }
+                None => {
+                    let signal = subsystem.direction_signal(look.ahead, one.place, input.place);
+                    input.direction(&mut over, &one.shape, signal);
+                }
+            }
+        }
+    }
+
+    /// Makes no subsystem advance.
+    pub(crate) fn forgo_advance(&mut self) {
+        for subsystem in &mut self.subsystems {
+            subsystem.forgo_advance();
+        }
+    }
+
+    /// Makes no subsystem look ahead.
+    pub(crate) fn forgo_look(&mut self, ahead: Ahead) {
+        for subsystem in &mut self.subsystems {
+            match ahead {
+                Ahead::Step => subsystem.request.predict = None,
+                Ahead::Now => subsystem.request.evaluate = None,
+            }
+        }
+    }
+}
