@@ -1,4 +1,5 @@
-//! What the log costs a run that does not log: `cargo bench -p linchpin-tests --bench log`.
+//! What the log costs a run that does not log: `cargo bench -p linchpin-tests --bench log`; `-- --write` writes the table of
+//! `docs/evidence/cost.md`.
 //!
 //! One run measures, in turns, the macro step of the two-mass oscillator with the workers in this process, the shortest that there
 //! is, and the spans and events that such a step has, with the filter that `linchpin` has by default.
@@ -14,6 +15,7 @@ use linchpin::log;
 use linchpin_master::CoSimulation;
 use linchpin_master::scene::{Scene, parse};
 use linchpin_master::setup::Options;
+use linchpin_tests::evidence;
 
 const SCENE: &str = include_str!("../../scenes/oscillator.toml");
 
@@ -21,6 +23,8 @@ const SCENE: &str = include_str!("../../scenes/oscillator.toml");
 const BLOCK: u32 = 20_000;
 
 const ROUNDS: usize = 20;
+
+const COMMAND: &str = "cargo bench -p linchpin-tests --bench log -- --write";
 
 fn main() {
     log::begin(&"warn".parse().unwrap());
@@ -39,11 +43,12 @@ fn main() {
         logs.push(nanoseconds(spans_of_a_step));
     }
     let [step, log] = [steps, logs].map(median);
-    println!("macro step in process: {step:.0} ns");
-    println!(
-        "its spans and events, switched off: {log:.2} ns, {:.3} % of it",
+    let table = format!(
+        "| macro step in process, ns | its spans and events, switched off, ns | share |\n|---|---|---|\n\
+         | {step:.0} | {log:.0} | {:.1} % |",
         100.0 * log / step
     );
+    evidence::show("cost.md", "log", COMMAND, &table);
 }
 
 /// As many as a step has that is corrected once: three spans, and two events where steps vary.

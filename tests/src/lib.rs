@@ -7,6 +7,7 @@
 pub mod chain;
 pub mod convergence;
 pub mod errors;
+pub mod evidence;
 pub mod golden;
 pub mod hinges;
 pub mod in_space;

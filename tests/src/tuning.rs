@@ -15,6 +15,15 @@ impl Tuned {
         self.exponents.map(|exponent| 10f64.powf(exponent))
     }
 
+    /// A row of the tables of `docs/evidence/methods.md`.
+    pub fn row(&self, macro_step: f64, order: &str, degree: usize) -> String {
+        let [stiffness, damping] = self.values();
+        let error = self.error;
+        format!(
+            "| {macro_step:e} | {order} | {degree} | {error:.1e} | {stiffness:.1e} | {damping:.1e} |\n"
+        )
+    }
+
     fn better(self, other: Self) -> Self {
         if other.error < self.error {
             other
@@ -23,6 +32,10 @@ impl Tuned {
         }
     }
 }
+
+/// Head of a table of such rows.
+pub const TABLE_HEAD: &str =
+    "| H | order | k | error | K, N/m | D, N s/m |\n|---|---|---|---|---|---|\n";
 
 /// Looks for the smallest `error([stiffness, damping])`: a grid of half decades, `steps` of them to each side of `around` (decimal
 /// logarithms), then ever finer ones around the best point.

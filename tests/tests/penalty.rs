@@ -6,13 +6,14 @@ use linchpin::connect::Place;
 use linchpin_master::setup::Options;
 use linchpin_tests::convergence::{Study, assert_orders};
 use linchpin_tests::errors::{Errors, closed_form};
+use linchpin_tests::evidence;
 use linchpin_tests::in_space::joints;
 use linchpin_tests::in_space::pair::Pair;
 use linchpin_tests::masses::{FOUR, scene_text};
 use linchpin_tests::runs::{run, try_run};
 use linchpin_tests::scenes::{oscillator_with, with_settings};
 use linchpin_tests::spring_pair::SpringPair;
-use linchpin_tests::tuning::{OSCILLATOR, tune};
+use linchpin_tests::tuning::{OSCILLATOR, TABLE_HEAD, tune};
 
 const STIFFNESS: f64 = 3.1e4;
 const DAMPING: f64 = 43.0;
@@ -151,20 +152,25 @@ fn tuned_springs_reach_their_errors() {
     }
 }
 
+const COMMAND: &str =
+    "cargo test --release -p linchpin-tests --test penalty -- --ignored --nocapture";
+
 /// What penalty coupling can reach on S1's oscillator if stiffness and damping are tuned with the solution known.
 #[test]
-#[ignore = "prints a table"]
+#[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn best_springs_of_the_oscillator() {
+    let mut table = TABLE_HEAD.to_owned();
     for h in [1e-2_f64, 5e-3, 2e-3, 1e-3, 5e-4] {
         for order in ["jacobi", "gauss-seidel"] {
             for degree in 0..=3 {
                 let best = tune([-2.0 * h.log10(), -h.log10()], 3, |values| {
                     oscillator_error(order, degree, values, h)
                 });
-                println!("H = {h:e} {order} k = {degree}: {best:?}");
+                table += &best.row(h, order, degree);
             }
         }
     }
+    evidence::show("methods.md", "springs of the oscillator", COMMAND, &table);
 }
 
 /// NRMS of the position of the first mass.

@@ -9,9 +9,10 @@ use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 use linchpin_models::reference::SliderCrank;
 use linchpin_tests::convergence::{assert_all_orders, assert_least_orders, slope_of};
+use linchpin_tests::evidence;
 use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
-use linchpin_tests::tuning::{SLIDER_CRANK, tune};
+use linchpin_tests::tuning::{SLIDER_CRANK, TABLE_HEAD, tune};
 
 const SCENE: &str = include_str!("../../scenes/slider-crank.toml");
 
@@ -190,18 +191,23 @@ fn tuned_springs_reach_their_errors() {
     }
 }
 
+const COMMAND: &str =
+    "cargo test --release -p linchpin-tests --test slider_crank -- --ignored --nocapture";
+
 /// What penalty coupling can reach if stiffness and damping are tuned with the solution known.
 #[test]
-#[ignore = "prints a table"]
+#[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn best_springs() {
+    let mut table = TABLE_HEAD.to_owned();
     for h in [1e-2_f64, 1e-3] {
         for degree in 0..=1 {
             let best = tune([-2.0 * h.log10(), -h.log10()], 2, |values| {
                 penalty_error("jacobi", degree, values, h)
             });
-            println!("H = {h:e} k = {degree}: {best:?}");
+            table += &best.row(h, "jacobi", degree);
         }
     }
+    evidence::show("methods.md", "springs of the slider-crank", COMMAND, &table);
 }
 
 /// Error of the angles; infinite if the run diverges.

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin_models::oscillator::OscillatorParameters;
+use linchpin_tests::evidence;
 use linchpin_tests::random_pairs::{Pair, Tally, Verdict};
 
 const SEED: u64 = 7;
@@ -98,10 +99,16 @@ fn an_unstable_free_pair_is_unstable() {
     );
 }
 
-/// 10,000 pairs for the documentation.
+const COMMAND: &str =
+    "cargo test --release -p linchpin-tests --test spectral_radii -- --ignored --nocapture";
+
+/// 10,000 pairs.
 #[test]
-#[ignore = "prints a table"]
+#[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn tallies() {
+    let mut table = String::from(
+        "| method | unstable | of these with H resolving both masses | out of reach |\n|---|---|---|---|\n",
+    );
     for coupling in [
         "method=baumgarte beta=2H gamma=H^2 degree=0",
         "method=baumgarte beta=2H gamma=H^2 degree=1",
@@ -117,13 +124,14 @@ fn tallies() {
             .iter()
             .filter(|(pair, _)| pair.is_resolved())
             .count();
-        println!(
-            "{coupling}: {} unstable, of these {resolved} that H resolves, {} out of reach",
+        table += &format!(
+            "| `{coupling}` | {} | {resolved} | {} |\n",
             tally.unstable.len(),
             tally.out_of_reach.len()
         );
         for (pair, why) in tally.out_of_reach.iter().take(5) {
-            println!("    {why}\n    {pair:?}");
+            println!("{coupling}: {why}\n    {pair:?}");
         }
     }
+    evidence::show("methods.md", "random pairs", COMMAND, &table);
 }

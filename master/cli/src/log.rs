@@ -112,11 +112,7 @@ mod tests {
     #[test]
     fn a_level_is_that_of_linchpin_and_of_no_library() {
         let filter = filter("debug");
-        for target in [
-            "linchpin",
-            "linchpin_master::cosimulation",
-            "linchpin_worker",
-        ] {
+        for target in ["linchpin", "linchpin_master::macro_step", "linchpin_worker"] {
             assert!(filter.would_enable(target, &Level::DEBUG), "{target}");
             assert!(!filter.would_enable(target, &Level::TRACE), "{target}");
         }

@@ -100,24 +100,28 @@ fn measure(links: usize, place: Place) -> Cost {
     blocks.reduce(least).unwrap()
 }
 
-/// Prints and returns the costs of all lengths.
-pub fn print_table(place: Place) -> Vec<Cost> {
-    println!("\nMacro step in us, workers: {place:?}\n");
-    println!(
-        "| links | exchanges per worker | assemble and solve | master | master per link | whole |"
+/// Shows and returns the costs of all lengths, with the workers in this process and in processes of their own.
+pub fn show() -> [Vec<Cost>; 2] {
+    let costs = [Place::InProcess, Place::Processes]
+        .map(|place| LINKS.map(|links| measure(links, place)).to_vec());
+    let mut table = String::from(
+        "| links | exchanges per worker | in process: assemble and solve | master | whole \
+         | processes: assemble and solve | master | whole |\n|---|---|---|---|---|---|---|---|\n",
     );
-    println!("|---|---|---|---|---|---|");
-    let measured = LINKS.map(|links| {
-        let cost = measure(links, place);
-        println!(
-            "| {links} | {} | {:.1} | {:.0} | {:.1} | {:.0} |",
-            cost.exchanges,
-            cost.solving,
-            cost.master,
-            cost.master / links as f64,
-            cost.whole
+    for (inside, outside) in costs[0].iter().zip(&costs[1]) {
+        table += &format!(
+            "| {} | {} |",
+            inside.links,
+            inside.exchanges.max(outside.exchanges)
         );
-        cost
-    });
-    measured.into()
+        for cost in [inside, outside] {
+            table += &format!(
+                " {:.1} | {:.0} | {:.0} |",
+                cost.solving, cost.master, cost.whole
+            );
+        }
+        table.push('\n');
+    }
+    crate::show("macro step", &table);
+    costs
 }

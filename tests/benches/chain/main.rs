@@ -5,9 +5,9 @@
 //! * the macro step with the workers in this process and as n processes over Unix sockets;
 //! * the memory of the master after a thousand and after ten thousand macro steps.
 //!
-//! `cargo bench --workspace --bench chain` prints the tables of `docs/evidence/cost.md` and draws its picture to
-//! `target/chain-cost.svg`; `-- solver`, `-- steps` and `-- memory` do one part. Every time is the least of sixty short blocks, so that
-//! other work of the machine counts little.
+//! `cargo bench -p linchpin-tests --bench chain` prints the tables of `docs/evidence/cost.md` and draws its picture to
+//! `target/chain-cost.svg`; `-- solver`, `-- steps` and `-- memory` do one part, and with `--write` the tables go into the page. Every
+//! time is the least of sixty short blocks, so that other work of the machine counts little.
 
 // A bench stops at the first thing that is not as it should be.
 #![allow(clippy::unwrap_used)]
@@ -19,7 +19,7 @@ mod solver;
 
 use clap::Parser;
 use linchpin::commands::worker;
-use linchpin::connect::Place;
+use linchpin_tests::evidence;
 
 /// Blocks of one measurement.
 const BLOCKS: usize = 60;
@@ -33,23 +33,33 @@ enum Role {
 }
 
 fn main() {
-    let first = std::env::args().nth(1).unwrap_or_default();
-    if first == "worker" {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if arguments.first().is_some_and(|first| first == "worker") {
         let Role::Worker(arguments) = Role::parse();
         worker::execute(&arguments).unwrap();
         return;
     }
-    let is_wanted = |part| first.starts_with("--") || first.is_empty() || first == part;
+    let parts: Vec<&String> = arguments
+        .iter()
+        .filter(|argument| !argument.starts_with("--"))
+        .collect();
+    let is_wanted = |part| parts.is_empty() || parts.iter().any(|wanted| *wanted == part);
     if is_wanted("memory") {
-        memory::print_table();
+        memory::show();
     }
-    let solutions = is_wanted("solver").then(solver::print_table);
+    let solutions = is_wanted("solver").then(solver::show);
     if is_wanted("steps") {
-        let costs = [Place::InProcess, Place::Processes].map(macro_steps::print_table);
+        let costs = macro_steps::show();
         if let Some(solutions) = solutions {
             picture::draw(&costs, &solutions);
         }
     }
+}
+
+/// Prints a table of the page, and writes it there if that is wanted.
+fn show(name: &str, table: &str) {
+    const COMMAND: &str = "cargo bench -p linchpin-tests --bench chain -- --write";
+    evidence::show("cost.md", name, COMMAND, table);
 }
 
 /// The least time in us that one of `count` turns takes, over all blocks.

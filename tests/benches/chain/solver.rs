@@ -23,6 +23,7 @@ pub struct Solution {
     pub bodies: usize,
     pub dense: f64,
     pub sparse: f64,
+    is_sparse: bool,
 }
 
 /// Numbers without a visible relation, larger on the diagonal.
@@ -45,33 +46,44 @@ fn time(mut solver: LinearSolver, pattern: &Pattern) -> f64 {
     })
 }
 
-/// Prints and returns the times of all arrangements.
-pub fn print_table() -> Vec<Solution> {
-    println!("\nOne solution of the coupling system in us\n");
-    println!("| bodies | arrangement | variables | entries | dense | sparse | chosen |");
-    println!("|---|---|---|---|---|---|---|");
-    let mut solutions = Vec::new();
-    for (arrangement, hinges) in ARRANGEMENTS {
-        for bodies in BODIES {
-            let pattern = hinges::pattern(bodies, &hinges(bodies));
-            let [dense, sparse] = [LinearSolver::dense, LinearSolver::sparse]
-                .map(|solver| time(solver(&pattern), &pattern));
-            let chosen = match LinearSolver::new(&pattern).is_sparse() {
-                true => "sparse",
-                false => "dense",
-            };
-            println!(
-                "| {bodies} | {arrangement} | {} | {} | {dense:.1} | {sparse:.1} | {chosen} |",
-                pattern.size(),
-                pattern.entries()
-            );
-            solutions.push(Solution {
-                arrangement,
-                bodies,
-                dense,
-                sparse,
-            });
-        }
+fn measure(arrangement: Arrangement, bodies: usize) -> Solution {
+    let (arrangement, hinges) = arrangement;
+    let pattern = hinges::pattern(bodies, &hinges(bodies));
+    let [dense, sparse] =
+        [LinearSolver::dense, LinearSolver::sparse].map(|solver| time(solver(&pattern), &pattern));
+    Solution {
+        arrangement,
+        bodies,
+        dense,
+        sparse,
+        is_sparse: LinearSolver::new(&pattern).is_sparse(),
     }
+}
+
+/// Shows and returns the times of all arrangements.
+pub fn show() -> Vec<Solution> {
+    let mut table = String::from("| bodies |");
+    for (arrangement, _) in ARRANGEMENTS {
+        table += &format!(" {arrangement}: dense | sparse |");
+    }
+    table += "\n|---|---|---|---|---|---|---|---|---|\n";
+    let mut solutions = Vec::new();
+    for bodies in BODIES {
+        table += &format!("| {bodies} |");
+        for arrangement in ARRANGEMENTS {
+            let solution = measure(arrangement, bodies);
+            for (time, is_chosen) in [
+                (solution.dense, !solution.is_sparse),
+                (solution.sparse, solution.is_sparse),
+            ] {
+                let bold = if is_chosen { "**" } else { "" };
+                let digits = if time < 1000.0 { 1 } else { 0 };
+                table += &format!(" {bold}{time:.digits$}{bold} |");
+            }
+            solutions.push(solution);
+        }
+        table.push('\n');
+    }
+    crate::show("linear solver", &table);
     solutions
 }

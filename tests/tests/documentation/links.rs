@@ -1,6 +1,7 @@
 //! Links between pages, to files and to headings.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::page::{Page, pages};
@@ -27,6 +28,51 @@ fn every_link_leads_somewhere() {
         }
     }
     assert!(broken.is_empty(), "\n{}", broken.join("\n"));
+}
+
+/// A link to a name of the code leads to a file that has this name.
+#[test]
+fn every_name_of_the_code_is_in_its_file() {
+    let mut wrong = Vec::new();
+    let mut found = 0;
+    for page in pages() {
+        let definitions: BTreeMap<&str, &str> = page
+            .prose()
+            .filter_map(|line| definition(line.text))
+            .collect();
+        for (name, label) in named_links(&page.text) {
+            let folder = page.path.parent().unwrap_or(Path::new("."));
+            let Some(target) = definitions.get(label) else {
+                wrong.push(format!("{}: [{label}] leads nowhere", page.name()));
+                continue;
+            };
+            let text = fs::read_to_string(folder.join(target)).unwrap_or_default();
+            let last = name.rsplit("::").next().unwrap_or(name);
+            let is_letter = |letter: char| letter.is_alphanumeric() || letter == '_';
+            if !text
+                .split(|letter| !is_letter(letter))
+                .any(|word| word == last)
+            {
+                wrong.push(format!("{}: {target} has no {name}", page.name()));
+            }
+            found += 1;
+        }
+    }
+    assert!(wrong.is_empty(), "\n{}", wrong.join("\n"));
+    assert!(found > 0, "no page names the code");
+}
+
+/// Links such as ``[`name`][label]``, which may be broken over lines.
+fn named_links(text: &str) -> Vec<(&str, &str)> {
+    let mut links = Vec::new();
+    for rest in text.split("[`").skip(1) {
+        let link = rest.split_once("`][").and_then(|(name, rest)| {
+            let label = rest.split(']').next()?;
+            (!name.contains('`')).then_some((name, label))
+        });
+        links.extend(link);
+    }
+    links
 }
 
 #[test]
@@ -73,9 +119,12 @@ fn follow(
     }
 }
 
-/// What the links and pictures of a line lead to; code spans have none.
+/// What the links and pictures of a line lead to, or the link that it defines for others; code spans have none.
 fn targets(line: &str) -> Vec<&str> {
     let mut targets = Vec::new();
+    if let Some((_, target)) = definition(line) {
+        return vec![target];
+    }
     for text in line.split('`').step_by(2) {
         let mut rest = text;
         while let Some(start) = rest.find("](") {
@@ -86,6 +135,11 @@ fn targets(line: &str) -> Vec<&str> {
         }
     }
     targets
+}
+
+/// Name and target of a line `[name]: target`.
+fn definition(line: &str) -> Option<(&str, &str)> {
+    line.strip_prefix('[')?.split_once("]: ")
 }
 
 /// Anchors of the headings, as code hosts and the book make them.

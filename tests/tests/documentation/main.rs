@@ -5,6 +5,7 @@
 mod chapters;
 mod command;
 mod commands;
+mod evidence;
 mod lines;
 mod links;
 mod messages;

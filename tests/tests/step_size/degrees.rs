@@ -1,10 +1,11 @@
 //! Degrees that follow the estimates.
 //!
-//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table_of_degrees` prints the table of docs/evidence/step-size.md.
+//! [`COMMAND`] prints the table of docs/evidence/step-size.md, and writes it with `LINCHPIN_WRITE=1`.
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
 use linchpin_tests::errors::Errors;
+use linchpin_tests::evidence;
 use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::{oscillator_with, with_settings};
 
@@ -72,16 +73,24 @@ fn an_automatic_degree_costs_no_more_than_the_best_fixed_one() {
     }
 }
 
+const COMMAND: &str = "cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table_of_degrees";
+
 #[test]
-#[ignore = "prints the table of docs/evidence/step-size.md"]
+#[ignore = "prints a table of docs/evidence/step-size.md"]
 fn table_of_degrees() {
+    let mut table = String::from(
+        "| scene | method | tolerance | k = 1 | k = 2 | k = 3 | automatic | largest error | rejected \
+         | steps with k = 0, 1, 2, 3 |\n|---|---|---|---|---|---|---|---|---|---|\n",
+    );
     for scene in ALL {
         for method in METHODS {
             for tolerance in [1e-4, 1e-6, 1e-8] {
-                println!("{}", compare(&scene, method, tolerance).line);
+                table += &compare(&scene, method, tolerance).line;
+                table.push('\n');
             }
         }
     }
+    evidence::show("step-size.md", "degrees", COMMAND, &table);
 }
 
 fn degrees(trajectory: &Trajectory) -> Vec<usize> {

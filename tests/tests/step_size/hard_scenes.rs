@@ -1,12 +1,13 @@
 //! `scenes/hard` against closed forms and a monolithic solution.
 //!
-//! `cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table` prints the table of docs/evidence/step-size.md.
+//! [`COMMAND`] prints the table of docs/evidence/step-size.md, and writes it with `LINCHPIN_WRITE=1`.
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 use linchpin_models::reference::{DoublePendulum, GroundHinge, Link};
 use linchpin_tests::errors::closed_form;
+use linchpin_tests::evidence;
 use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
 
@@ -193,13 +194,16 @@ impl Hard {
     }
 
     /// Rows of the table of docs/evidence/step-size.md.
-    fn tell(&self) {
+    fn rows(&self, table: &mut String) {
         for coupling in METHODS {
+            let method = coupling
+                .trim_start_matches("method=")
+                .replace(" degree=", ", k = ");
             for tolerance in [1e-4, 1e-6, 1e-8] {
                 let own = self.run(coupling, tolerance);
                 let (step, fixed) = cheapest_fixed(self.exact, &own.scene, own.error.largest);
-                println!(
-                    "| {} | {coupling} | {tolerance:e} | {:.1e} | {:.1e} | {} | {} | {} | {step:.1e} | {fixed} |",
+                *table += &format!(
+                    "| {} | {method} | {tolerance:e} | {:.1e} | {:.1e} | {} | {} | {} | {step:.1e} | {fixed} |\n",
                     self.name,
                     own.error.largest,
                     own.error.end,
@@ -294,10 +298,17 @@ fn steps_grow_again_after_a_jump() {
     }
 }
 
+const COMMAND: &str = "cargo test --release -p linchpin-tests --test step_size -- --ignored --nocapture table_of_hard_scenes";
+
 #[test]
-#[ignore = "prints the table of docs/evidence/step-size.md"]
-fn table() {
+#[ignore = "prints a table of docs/evidence/step-size.md"]
+fn table_of_hard_scenes() {
+    let mut table = String::from(
+        "| scene | method | tolerance | largest error | at the end | steps | rejected | integrations | fixed H \
+         | integrations |\n|---|---|---|---|---|---|---|---|---|---|\n",
+    );
     for scene in ALL {
-        scene.tell();
+        scene.rows(&mut table);
     }
+    evidence::show("step-size.md", "hard scenes", COMMAND, &table);
 }

@@ -1,6 +1,6 @@
 //! Tables 3 to 6 of S2 with our own figures beside the paper's, and speed against error beside Siconos.
 //!
-//! `cargo bench -p linchpin-models --bench tables` prints them; `-- --write` writes them to `docs/evidence/nonsmooth-tables.md`.
+//! `cargo bench -p linchpin-tests --bench tables` prints them; `-- --write` writes them to `docs/evidence/nonsmooth-tables.md`.
 //! Times are the least of several runs in turn, so that other work of the machine counts little; errors and counts are
 //! the same on every machine. Siconos takes part where `python3-siconos` and a C compiler are installed.
 
@@ -14,24 +14,25 @@ mod runs;
 mod siconos;
 mod speed;
 
-use std::path::Path;
+use std::fs;
+
+use linchpin_tests::evidence::{Stamp, is_to_be_written, path};
 
 /// Where the tables go.
-const DOCUMENT: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/../docs/evidence/nonsmooth-tables.md"
-);
+const PAGE: &str = "nonsmooth-tables.md";
+
+const COMMAND: &str = "cargo bench -p linchpin-tests --bench tables -- --write";
 
 const HEAD: &str = "# Schemes for nonsmooth mechanics: cost and error
 
-Written by `cargo bench -p linchpin-models --bench tables -- --write`. S2 is Rezaei & Schindler; its figures stand in
-the columns \"paper\". The mechanism is the rigid slider-crank of its Table 1. Times are the least of several runs on one
-core.
+The whole page is written by its command. S2 is Rezaei & Schindler; its figures stand in the columns \"paper\". The
+mechanism is the rigid slider-crank of its Table 1. Times are the least of several runs on one core.
 ";
 
 fn main() {
     let parts = [
         HEAD.to_owned(),
+        format!("{}\n", Stamp::of(COMMAND)),
         costs::tables(),
         errors::tables(),
         speed::table(),
@@ -39,7 +40,7 @@ fn main() {
     ];
     let text = parts.join("\n");
     println!("{text}");
-    if std::env::args().any(|argument| argument == "--write") {
-        std::fs::write(Path::new(DOCUMENT), text).unwrap();
+    if is_to_be_written() {
+        fs::write(path(PAGE), text).unwrap();
     }
 }

@@ -13,7 +13,7 @@ pub struct Run {
 
 /// Moreau-Jean with theta = 1/2 on Table 1; `None` if Siconos or a compiler is not there.
 pub fn run(dt: f64, t_end: f64, samples: usize) -> Option<Run> {
-    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/siconos/run.py");
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("siconos/run.py");
     let output = Command::new("/usr/bin/python3")
         .arg(script)
         .args([

@@ -129,10 +129,7 @@ fn time_for(error: f64, points: &[Point]) -> (f64, bool) {
 }
 
 fn event_driven() -> Vec<[f64; 3]> {
-    let path = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../tests/golden/s2/event_table1.csv"
-    );
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/golden/s2/event_table1.csv");
     let text = std::fs::read_to_string(path).unwrap();
     let numbers = |line: &str| {
         let fields: Vec<f64> = line
