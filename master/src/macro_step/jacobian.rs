@@ -2,7 +2,7 @@
 
 use crate::layout::Layout;
 use crate::methods::Method;
-use crate::policies::columns::Columns;
+use crate::policies::columns::{self, Columns};
 use crate::results::Cause;
 use crate::signal::Held;
 use crate::system::{LookAhead, Point, System};
@@ -55,14 +55,16 @@ impl PointJacobian {
         &mut self.own.system
     }
 
-    /// Columns of earlier macro points, to be written or read.
-    pub fn columns_mut(&mut self) -> &mut Columns {
-        &mut self.own.columns
+    /// Columns of earlier macro points, and whether new ones are wanted, to be written.
+    pub fn state(&self) -> (columns::State, bool) {
+        (self.own.columns.state(), self.is_wanted)
     }
 
-    /// Columns of earlier macro points.
-    pub fn columns(&self) -> &Columns {
-        &self.own.columns
+    /// Goes on from what was written.
+    pub fn resume(&mut self, (columns, is_wanted): (columns::State, bool)) {
+        self.own.columns.resume(columns);
+        self.is_wanted = is_wanted;
+        self.is_known = false;
     }
 
     /// Whether an evaluation at the present macro point is missing.

@@ -8,7 +8,7 @@ use prost::Message;
 use super::CoSimulation;
 use crate::accuracy::tolerance;
 use crate::error::RunError;
-use crate::macro_step::{Corrector, CorrectorState, look_ahead};
+use crate::macro_step::{Corrector, CorrectorState, PointJacobian, look_ahead};
 use crate::methods::Saved;
 use crate::policies::degree::{self, AutomaticDegrees};
 use crate::policies::{columns, iteration, step_size};
@@ -59,11 +59,7 @@ impl CoSimulation {
             last: self.row.step(),
             method: self.run.method.state(),
             corrector: self.run.corrector.as_ref().map(Corrector::state),
-            point: self
-                .run
-                .point
-                .as_ref()
-                .map(|point| (point.columns().state(), point.is_wanted)),
+            point: self.run.point.as_ref().map(PointJacobian::state),
             iteration: self.run.iteration.state(),
             step_size: self
                 .run
@@ -98,9 +94,8 @@ impl CoSimulation {
         if let (Some(own), Some(state)) = (&mut self.run.corrector, state.corrector) {
             own.resume(state);
         }
-        if let (Some(point), Some((columns, is_wanted))) = (&mut self.run.point, state.point) {
-            point.columns_mut().resume(columns);
-            point.is_wanted = is_wanted;
+        if let (Some(point), Some(state)) = (&mut self.run.point, state.point) {
+            point.resume(state);
         }
         self.run.iteration.resume(state.iteration);
         if let (Some(own), Some((state, tolerance))) = (&mut self.run.step_size, state.step_size) {

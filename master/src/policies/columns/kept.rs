@@ -62,6 +62,7 @@ impl Kept {
         self.settled.clear();
         self.settled.extend(settled);
         self.last = last;
+        (self.is_pending, self.is_between) = (false, false);
     }
 
     /// Looks for the responses that are `needed` over this length with these past nodes: measured ones, or such between those of other

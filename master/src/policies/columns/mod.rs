@@ -183,6 +183,7 @@ impl Columns {
 
     /// Goes on from what was written.
     pub fn resume(&mut self, state: State) {
+        self.are_fresh = false;
         self.kept.resume(state.settled, state.last);
         for (raised, response) in self.raised.iter_mut().zip(state.responses) {
             raised.resume_response(response);
