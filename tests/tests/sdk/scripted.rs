@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{self, Failure, ProtocolVersion};
-use linchpin_worker::scripted::{Act, Scripted};
+use linchpin_tests::scripted::{Act, Scripted};
 
 use crate::both_ways;
 use crate::driver::{Driver, constant, tank};

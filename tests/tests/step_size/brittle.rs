@@ -11,7 +11,7 @@ use linchpin_master::scene::{self, Scene};
 use linchpin_models::oscillator::Oscillator;
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
-use linchpin_worker::scripted::Scripted;
+use linchpin_tests::scripted::Scripted;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Host, Inputs, Interval, Model, Setup, Snapshot, StepFailure, Subsystem};
 
