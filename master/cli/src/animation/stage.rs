@@ -1,7 +1,7 @@
 //! Where the mechanism moves.
 
 use linchpin_master::cosimulation::RecordedJoint;
-use linchpin_proto::joint_load::Pose;
+use linchpin_proto::joint_load::{Marker as _, Pose};
 use nalgebra::Vector3;
 
 use super::motion::{Form, Frame, Marker, Motion};
@@ -160,7 +160,7 @@ fn held(
 ) -> [Vector3<f64>; 2] {
     [0, 1].map(|end| {
         let pose = pose(&motion.markers[joint.ends[end]], frame, lanes[end]);
-        pose.position + pose.rotation * Vector3::from(joint.points[end])
+        pose.point(&Vector3::from(joint.points[end]))
     })
 }
 
