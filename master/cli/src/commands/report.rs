@@ -73,7 +73,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     write(&folder.join("report.html"), &page(&found)?)?;
     for scene in &found.scenes {
         for picture in Picture::all(scene) {
-            picture.draw(&folder.join(format!("{}-{}", scene.name, picture.ending)))?;
+            let stem = folder.join(format!("{}-{}", scene.name, picture.ending));
+            picture.chart.write(&stem)?;
         }
     }
     if !arguments.output.quiet {

@@ -1,10 +1,8 @@
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Drawn, Picture, Surface, embed_font, write};
+use super::canvas::{Drawn, Picture, Pictured, Surface};
 use super::clip::clipped;
 use super::colour::GrowthColours;
 use super::error::PlotError;
@@ -13,7 +11,7 @@ use super::legend::{Key, Legend};
 use super::map::{draw_colours, panel_of};
 use super::panel::{Panel, room_above, room_below};
 use super::style::{LABEL_TEXT, Marker, stroke, text, units};
-use super::tiling::{PICTURE_WIDTH, Tiling};
+use super::tiling::Sheet;
 
 /// Growth factors over two parameters as colours, with lines and named points on top.
 #[derive(Clone, Debug)]
@@ -48,20 +46,14 @@ pub struct NamedPoint {
     pub place: (f64, f64),
 }
 
-/// Writes `STEM.svg` and `STEM.png`.
-///
-/// # Errors
-/// [`PlotError`]: grid values not increasing, number of cells does not fit the grid, no cell to draw, unwritable
-/// path.
-pub fn region(plot: &RegionPlot, stem: &Path) -> Result<(), PlotError> {
-    embed_font()?;
-    plot.panel.check()?;
-    let cells = plot.panel.placed_cells();
-    let growth = cells.iter().filter_map(|placed| placed.cell.growth);
-    let colours = GrowthColours::spanning(growth).ok_or_else(|| PlotError::NoData {
-        stem: stem.to_path_buf(),
-    })?;
-    write(&Layout::new(plot, cells, colours), stem)
+impl Pictured for RegionPlot {
+    fn picture(&self) -> Result<Option<impl Picture>, PlotError> {
+        self.panel.check()?;
+        let cells = self.panel.placed_cells();
+        let growth = cells.iter().filter_map(|placed| placed.cell.growth);
+        let colours = GrowthColours::spanning(growth);
+        Ok(colours.map(|colours| Layout::new(self, cells, colours)))
+    }
 }
 
 const LINE_WIDTH: f64 = 2.5;
@@ -75,8 +67,7 @@ struct Layout<'a> {
     plot: &'a RegionPlot,
     cells: Vec<PlacedCell>,
     colours: GrowthColours,
-    legend: Legend,
-    tiling: Tiling,
+    sheet: Sheet,
 }
 
 impl<'a> Layout<'a> {
@@ -93,8 +84,7 @@ impl<'a> Layout<'a> {
             plot,
             cells,
             colours,
-            legend: Legend::new(plot.lines.iter().map(entry), units(PICTURE_WIDTH)),
-            tiling: Tiling::new(1),
+            sheet: Sheet::new(Legend::new(plot.lines.iter().map(entry)), 1),
         }
     }
 }
@@ -150,13 +140,11 @@ fn draw_point<DB: Surface>(inside: &Panel<DB>, point: &NamedPoint) -> Drawn<DB> 
 
 impl Picture for Layout<'_> {
     fn size(&self) -> (u32, u32) {
-        let height = self.legend.height() + self.tiling.height();
-        (PICTURE_WIDTH as u32, height.ceil() as u32)
+        self.sheet.size()
     }
 
     fn draw<DB: Surface>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let (head, rest) = area.split_vertically(units(self.legend.height()));
-        self.legend.draw(&head)?;
+        let rest = self.sheet.below_legend(area)?;
         let (width, height) = rest.dim_in_pixel();
         let (panel, bar) = rest.split_horizontally(width as i32 - self.colours.width());
         let (above, _) = bar.split_vertically(height as i32 - units(room_below()));

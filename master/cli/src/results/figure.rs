@@ -7,9 +7,7 @@ use linchpin_master::scene::{Panel, Scene};
 
 use super::{Impacts, RunReport, Trace};
 use crate::commands::CommandError;
-use crate::plot::{
-    self, Portrait, Scale, TimeMarks, TimePanel, TimePanels, TimeSeries, time_panels,
-};
+use crate::plot::{Chart, Curve, Portrait, Scale, TimeMarks, TimePanel, TimePanels};
 
 /// The panels of a scene that names none; those without curves are left out.
 const USUAL: [(&str, Drawn); 4] = [
@@ -52,7 +50,7 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
             None => picture.panels.push(TimePanel {
                 y_label,
                 y_scale: Scale::Linear,
-                series: curves.into_iter().map(over_time).collect(),
+                series: curves,
             }),
             Some(over) => picture.portraits.push(Portrait {
                 x_label: over.label.clone(),
@@ -64,20 +62,11 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
     if picture.panels.is_empty() && picture.portraits.is_empty() {
         return Ok(());
     }
-    Ok(time_panels(&picture, stem)?)
-}
-
-fn over_time(curve: plot::Path) -> TimeSeries {
-    let (t, y) = curve.points.into_iter().unzip();
-    TimeSeries {
-        name: curve.name,
-        t,
-        y,
-    }
+    Ok(picture.write(stem)?)
 }
 
 /// The curves of one panel.
-fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<plot::Path> {
+fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<Curve> {
     let is_single = reports.len() == 1;
     let is_usual = scene.output.panels.is_empty();
     let is_over_time = is_usual || scene.output.panels[panel].over.is_none();
@@ -108,7 +97,7 @@ fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<plot::Pa
                 Some(case) if is_only => case.name.clone(),
                 Some(case) => format!("{}: {}", trace.name, case.name),
             };
-            plot::Path { name, points }
+            Curve { name, points }
         }));
     }
     curves

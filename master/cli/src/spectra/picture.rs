@@ -7,8 +7,8 @@ use linchpin_models::nonsmooth::spectrum::Spectrum;
 
 use super::{CurveSpectra, RegionCell};
 use crate::plot::{
-    Curve, CurvePanel, CurvePlot, MapAxis, MapCell, MapPanel, NamedPoint, PlotError, RegionLine,
-    RegionPlot, Scale, Verdict, curves, region,
+    Chart, Curve, CurvePanel, CurvePlot, MapAxis, MapCell, MapPanel, Markers, NamedPoint,
+    PlotError, RegionLine, RegionPlot, Scale, Verdict,
 };
 
 /// What the picture shows of radii: explicit schemes go far beyond.
@@ -28,27 +28,27 @@ pub fn draw_curves(
 ) -> Result<(), PlotError> {
     let first = file.sweep.first().copied().unwrap_or_default();
     let last = file.sweep.last().copied().unwrap_or_default();
-    let panels = vec![
-        CurvePanel {
-            title: String::new(),
-            x_label: "dt / T".to_owned(),
-            y_label: "spectral radius".to_owned(),
-            x_scale: Scale::Logarithmic,
-            x_range: Some((first, last)),
-            y_range: Some(RADII),
-            curves: curves_of(found, |spectrum| Some(spectrum.radius)),
-        },
-        CurvePanel {
-            title: String::new(),
-            x_label: "dt / T".to_owned(),
-            y_label: "relative period error".to_owned(),
-            x_scale: Scale::Linear,
-            x_range: Some((0.0, file.period_to)),
-            y_range: None,
-            curves: curves_of(found, Spectrum::period_error),
-        },
-    ];
-    curves(&CurvePlot { panels }, stem)
+    let radii = CurvePanel {
+        title: String::new(),
+        x_label: "dt / T".to_owned(),
+        y_label: "spectral radius".to_owned(),
+        scales: [Scale::Logarithmic, Scale::Linear],
+        x_range: Some((first, last)),
+        y_range: Some(RADII),
+        curves: curves_of(found, |spectrum| Some(spectrum.radius)),
+        markers: Markers::Spread,
+        reference_slopes: Vec::new(),
+    };
+    let period_errors = CurvePanel {
+        y_label: "relative period error".to_owned(),
+        scales: [Scale::Linear; 2],
+        x_range: Some((0.0, file.period_to)),
+        y_range: None,
+        curves: curves_of(found, Spectrum::period_error),
+        ..radii.clone()
+    };
+    let panels = vec![radii, period_errors];
+    CurvePlot { panels }.write(stem)
 }
 
 fn curves_of(found: &[CurveSpectra], value: impl Fn(&Spectrum) -> Option<f64>) -> Vec<Curve> {
@@ -94,7 +94,7 @@ pub fn draw_region(
         lines: lines(settings),
         points: settings.points.iter().map(point).collect(),
     };
-    region(&plot, stem)
+    plot.write(stem)
 }
 
 fn cell_of(cell: &RegionCell) -> MapCell {

@@ -42,7 +42,7 @@ impl<'a> Section<'a> {
     fn new(scene: &'a SceneReport) -> Result<Self, PlotError> {
         let pictures = Picture::all(scene).into_iter();
         let drawn = pictures.map(|picture| {
-            let svg = inline(picture.svg(&scene.name)?);
+            let svg = inline(picture.chart.svg(&scene.name)?);
             Ok((svg, picture.caption))
         });
         Ok(Self {

@@ -5,7 +5,7 @@ use std::path::Path;
 use linchpin_master::scene;
 
 use super::{Agreement, CaseMap, Cell, Grid};
-use crate::plot::{MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Verdict, map};
+use crate::plot::{Chart, MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Verdict};
 
 /// Draws one panel for each case to `STEM.svg` and `STEM.png`: circles where the simulation is stable, the spectral
 /// radius as colour behind.
@@ -13,7 +13,7 @@ use crate::plot::{MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Ve
 /// # Errors
 /// [`PlotError`]: too many cases, nothing to draw, unwritable path.
 pub fn draw_map(maps: &[CaseMap], grid: &Grid, stem: &Path) -> Result<(), PlotError> {
-    map(&plot_of(maps, grid), stem)
+    plot_of(maps, grid).write(stem)
 }
 
 /// The picture that [`draw_map`] draws.
