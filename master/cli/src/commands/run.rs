@@ -83,10 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if !arguments.no_plots {
         draw(&scene, &reports, &job.pictures)?;
     }
-    if !arguments.output.quiet {
-        print(format_args!("results in {}\n", folder.display()))?;
-    }
-    Ok(())
+    arguments.output.conclude("", &folder)
 }
 
 /// What all runs of one command share.

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use linchpin_master::cosimulation::Mechanism;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
@@ -17,6 +17,7 @@ use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
 use crate::commands::common::remove_stale;
 use crate::error_norm::ErrorMeter;
+use crate::progress;
 use crate::simulate::Recorder;
 
 /// Writes `results.csv` and collects what report and picture need.
@@ -41,6 +42,9 @@ pub struct RunRecorder {
 /// The table of results.
 const TABLE: &str = "results.csv";
 
+/// The progress bar.
+const BAR: &str = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
+
 /// Parts of the simulated time that the progress bar counts.
 const BAR_LENGTH: u64 = 10_000;
 
@@ -61,11 +65,7 @@ impl RunRecorder {
             traces: Vec::new(),
             impacts: None,
             motion: None,
-            bar: if shows_progress {
-                bar()
-            } else {
-                ProgressBar::hidden()
-            },
+            bar: progress::bar(BAR_LENGTH, BAR, shows_progress),
             t_start: scene.t_start,
             t_end: scene.t_end,
             started: Instant::now(),
@@ -77,9 +77,7 @@ impl RunRecorder {
         self.bar.finish_and_clear();
         if let Some(table) = &mut self.table {
             let path = self.folder.join(TABLE);
-            table
-                .flush()
-                .map_err(|source| CommandError::Unwritable { path, source })?;
+            table.flush().map_err(CommandError::unwritable(&path))?;
         }
         Ok(RunReport {
             statistics,
@@ -104,8 +102,7 @@ impl RunRecorder {
             remove_stale(path)?;
         }
         let path = self.folder.join(TABLE);
-        let file = File::create(&path);
-        let file = file.map_err(|source| CommandError::Unwritable { path, source })?;
+        let file = File::create(&path).map_err(CommandError::unwritable(&path))?;
         self.table = Some(csv::Writer::from_writer(file));
         Ok(())
     }
@@ -118,16 +115,6 @@ impl RunRecorder {
             path: self.folder.join(TABLE),
             source,
         })
-    }
-}
-
-fn bar() -> ProgressBar {
-    let template = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
-    let bar = ProgressBar::new(BAR_LENGTH);
-    match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style),
-        // The template is fixed; the plain style still shows how far the run is.
-        Err(_) => bar,
     }
 }
 

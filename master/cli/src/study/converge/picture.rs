@@ -4,8 +4,10 @@ use std::path::Path;
 
 use linchpin_master::results::Statistics;
 
-use super::{CaseRuns, ConvergeRun, Outcome, Quantity, neighbouring};
+use super::{CaseRuns, Quantity, StudyRun, neighbouring};
 use crate::plot::{Chart, Curve, CurvePanel, CurvePlot, PlotError};
+use crate::study::orders;
+use crate::study::run::curve;
 
 /// What is counted of a run.
 type Count = fn(&Statistics) -> u64;
@@ -53,7 +55,7 @@ pub fn draw_work_precision(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotEr
     ];
     let panel = |(quantity, title): (Quantity, &str)| {
         costs.map(|(cost, x_label)| {
-            let curves = curves(cases, |run| Some((run.cost(cost)?, run.error(quantity)?)));
+            let curves = curves(cases, |run| Some((run.count(cost)?, run.error(quantity)?)));
             CurvePanel {
                 title: title.to_owned(),
                 ..CurvePanel::of_errors(x_label, "NRMS", curves)
@@ -73,26 +75,11 @@ fn draw(panels: impl Iterator<Item = CurvePanel>, stem: &Path) -> Result<(), Plo
     CurvePlot { panels }.write(stem)
 }
 
-fn curves(cases: &[CaseRuns], point: impl Fn(&ConvergeRun) -> Option<(f64, f64)>) -> Vec<Curve> {
-    let curve = |case: &CaseRuns| Curve {
-        name: case.case.clone(),
-        // A run without an error is a gap in the line.
-        points: case
-            .runs
-            .iter()
-            .map(|run| point(run).unwrap_or((run.macro_step, f64::NAN)))
-            .collect(),
-    };
-    cases.iter().map(curve).collect()
-}
-
-impl ConvergeRun {
-    fn cost(&self, count: Count) -> Option<f64> {
-        match &self.outcome {
-            Outcome::Done { statistics, .. } => Some(count(statistics) as f64),
-            Outcome::Diverged(_) => None,
-        }
-    }
+fn curves(cases: &[CaseRuns], point: impl Fn(&StudyRun) -> Option<(f64, f64)>) -> Vec<Curve> {
+    let cases = cases.iter();
+    cases
+        .map(|case| curve(&case.case, &case.runs, &point))
+        .collect()
 }
 
 /// The multiples of a half next to the orders that the smallest macro steps show, each once.
@@ -103,13 +90,6 @@ fn slopes(cases: &[CaseRuns], quantity: Quantity) -> Vec<f64> {
             .flatten()
             .last()
     };
-    let mut slopes: Vec<f64> = cases
-        .iter()
-        .filter_map(last_order)
-        .map(|order| (2.0 * order).round() / 2.0)
-        .filter(|slope| SLOPES.contains(slope))
-        .collect();
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
-    slopes
+    let last_orders = cases.iter().filter_map(last_order);
+    orders::slopes(last_orders.map(|order| (2.0 * order).round() / 2.0), SLOPES)
 }

@@ -3,11 +3,13 @@
 mod monolithic;
 mod trajectory;
 
-use linchpin_master::scene;
+use linchpin_master::RunError;
+use linchpin_master::results::Statistics;
+use linchpin_master::scene::{self, Scene};
 
 use super::StudyError;
 use super::columns::{Column, Kind};
-use super::runs::Variant;
+use super::runs::{Variant, simulated};
 use crate::closed_form::{self, ClosedForm};
 pub use monolithic::Monolithic;
 pub use trajectory::{Trajectory, TrajectoryRecorder};
@@ -77,13 +79,23 @@ impl Reference {
         }
     }
 
-    /// A coupled run, whose multipliers may jump.
-    pub fn coupled_run(trajectory: Trajectory, columns: &[Column]) -> Self {
+    /// A run of a coupled scene, whose multipliers may jump, with its statistics; or how it diverged.
+    ///
+    /// # Errors
+    /// What stopped the run otherwise.
+    pub fn of_run(
+        scene: &Scene,
+        columns: &[Column],
+    ) -> Result<Result<(Self, Statistics), String>, RunError> {
+        let names = columns.iter().map(|column| Some(column.name.clone()));
+        let mut recorder = TrajectoryRecorder::new(names.collect());
+        let outcome = simulated(scene, &mut recorder)?;
         let at_points_only = columns.iter().map(|column| column.kind == Kind::Multiplier);
-        Self::Run {
-            trajectory,
+        let reference = Self::Run {
+            trajectory: recorder.into_trajectory(),
             at_points_only: at_points_only.collect(),
-        }
+        };
+        Ok(outcome.map(|statistics| (reference, statistics)))
     }
 
     /// Whether it knows values between the macro points of all runs.

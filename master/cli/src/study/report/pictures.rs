@@ -1,14 +1,13 @@
 //! The pictures of one scene of a report.
 
-use linchpin_master::results::Statistics;
-
 use super::runs::USELESS;
 use super::trace::Trace;
-use super::{Ending, SceneReport, SettingReport, TimedRun};
+use super::{Ending, SceneReport, SettingReport, StudyRun};
 use crate::plot::{
     Chart, Curve, CurvePanel, CurvePlot, Scale, StabilityMap, TimePanel, TimePanels,
 };
 use crate::study::orders;
+use crate::study::run::curve;
 use crate::study::stability::plot_of;
 
 /// Name of the monolithic scene in legends.
@@ -57,9 +56,6 @@ impl Picture {
 
 /// Errors over time, integrations, exchanges and macro step; `None` if no run has an error.
 fn work_precision(scene: &SceneReport) -> Option<CurvePlot> {
-    let count = |count: fn(&Statistics) -> u64| {
-        move |run: &TimedRun| Some(count(run.ending.statistics()?) as f64)
-    };
     let mut over_time = panel(scene, "wall time in s", &|run| run.ending.wall_time());
     over_time.curves.extend(monolithic(scene));
     let integrations = "subsystem integrations";
@@ -67,8 +63,12 @@ fn work_precision(scene: &SceneReport) -> Option<CurvePlot> {
     over_step.reference_slopes = slopes(scene);
     let panels = vec![
         over_time,
-        panel(scene, integrations, &count(|own| own.integrations)),
-        panel(scene, "exchanges with workers", &count(|own| own.exchanges)),
+        panel(scene, integrations, &|run| {
+            run.count(|own| own.integrations)
+        }),
+        panel(scene, "exchanges with workers", &|run| {
+            run.count(|own| own.exchanges)
+        }),
         over_step,
     ];
     let has_points = |panel: &CurvePanel| {
@@ -79,22 +79,16 @@ fn work_precision(scene: &SceneReport) -> Option<CurvePlot> {
     can_be_drawn.then_some(CurvePlot { panels })
 }
 
-fn panel(scene: &SceneReport, x_label: &str, x: &dyn Fn(&TimedRun) -> Option<f64>) -> CurvePanel {
-    let point = |run: &TimedRun| {
+fn panel(scene: &SceneReport, x_label: &str, x: &dyn Fn(&StudyRun) -> Option<f64>) -> CurvePanel {
+    let point = |run: &StudyRun| {
         let error = run.error(scene.quantity)?;
         (error < USELESS).then_some((x(run)?, error))
     };
-    let curve = |setting: &SettingReport| Curve {
-        name: setting.name.clone(),
-        // A run without an error is a gap in the line.
-        points: setting
-            .runs
-            .iter()
-            .map(|run| point(run).unwrap_or((f64::NAN, f64::NAN)))
-            .collect(),
-    };
     let y_label = format!("error of the {} (NRMS)", scene.quantity.name());
-    let curves = scene.settings.iter().map(curve).collect();
+    let settings = scene.settings.iter();
+    let curves = settings
+        .map(|own| curve(&own.name, &own.runs, point))
+        .collect();
     CurvePanel::of_errors(x_label, &y_label, curves)
 }
 
@@ -110,15 +104,9 @@ fn monolithic(scene: &SceneReport) -> Option<Curve> {
 
 /// Whole orders that the settings show over all macro steps.
 fn slopes(scene: &SceneReport) -> Vec<f64> {
-    let order = |setting: &SettingReport| {
-        let points = setting.points(scene.quantity);
-        orders::least_squares(points).map(f64::round)
-    };
-    let mut slopes: Vec<f64> = scene.settings.iter().filter_map(order).collect();
-    slopes.retain(|slope| (1.0..=6.0).contains(slope));
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
-    slopes
+    let order = |setting: &SettingReport| orders::least_squares(&setting.runs, scene.quantity);
+    let orders = scene.settings.iter().filter_map(order).map(f64::round);
+    orders::slopes(orders, 1.0..=6.0)
 }
 
 /// Residuals, and energy if the scene tells it, over time; `None` if there is neither.

@@ -81,8 +81,8 @@ fn is_s1(setting: &SettingReport) -> bool {
 
 impl SceneReport {
     fn cost(&self, setting: &SettingReport, error: f64) -> Option<Cost> {
-        let point = |run: &super::TimedRun| {
-            let integrations = run.ending.statistics()?.integrations as f64;
+        let point = |run: &super::StudyRun| {
+            let integrations = run.count(|own| own.integrations)?;
             Some((integrations, run.error(self.quantity)?))
         };
         let points: Vec<_> = setting.runs.iter().map(point).collect();

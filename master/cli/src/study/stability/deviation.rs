@@ -11,7 +11,7 @@ use super::cell::MOST_DEVIATION;
 use crate::simulate::Recorder;
 use crate::study::StudyError;
 use crate::study::columns::{Column, Kind, places, record, sum};
-use crate::study::reference::{Reference, TrajectoryRecorder};
+use crate::study::reference::Reference;
 use crate::study::runs::{Variant, simulated};
 
 /// Simulates and compares the velocities with those of a reference.
@@ -102,14 +102,8 @@ fn reference_run(
             macro_step: macro_step / REFINEMENT,
             ..scene.coupling
         };
-        let names = columns.iter().map(|column| Some(column.name.clone()));
-        let mut recorder = TrajectoryRecorder::new(names.collect());
-        match simulated(&scene, &mut recorder) {
-            Ok(Ok(_)) => {
-                let trajectory = recorder.into_trajectory();
-                return Ok(Some(Reference::coupled_run(trajectory, columns)));
-            }
-            Ok(Err(_)) => return Ok(None),
+        match Reference::of_run(&scene, columns) {
+            Ok(run) => return Ok(run.ok().map(|(reference, _)| reference)),
             Err(RunError::Scene(errors)) => refusal = Some(errors),
             Err(error) => return Err(error),
         }

@@ -19,7 +19,7 @@ pub use cell::{Agreement, Cell, Simulated};
 use deviation::Deviation;
 pub use picture::draw_map;
 pub(super) use picture::plot_of;
-pub use table::{Count, summary, write_csv};
+pub use table::{Count, rows, summary};
 
 /// The map of one case.
 #[derive(Debug, Clone)]

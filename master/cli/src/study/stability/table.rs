@@ -1,7 +1,6 @@
 //! The numbers of a stability map: as CSV and counted.
 
 use std::fmt;
-use std::path::Path;
 
 use serde::Serialize;
 
@@ -20,18 +19,10 @@ struct Record<'a> {
     agreement: &'static str,
 }
 
-/// Writes one row for each point of each case.
-///
-/// # Errors
-/// The path cannot be written to.
-pub fn write_csv(maps: &[CaseMap], path: &Path) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_path(path)?;
-    for map in maps {
-        for cell in &map.cells {
-            table.serialize(record(&map.case, cell))?;
-        }
-    }
-    Ok(table.flush()?)
+/// A row of `stability.csv` for each point of each case.
+pub fn rows(maps: &[CaseMap]) -> impl Iterator<Item = impl Serialize> {
+    maps.iter()
+        .flat_map(|map| map.cells.iter().map(|cell| record(&map.case, cell)))
 }
 
 fn record<'a>(case: &'a str, cell: &Cell) -> Record<'a> {
