@@ -215,16 +215,7 @@ impl JointLaw {
     /// counts.
     pub fn unit_wrench(&self, end: End, poses: &[Pose; 2]) -> Wrench {
         let Arms { force, arm } = self.arms(end, poses);
-        match self.law {
-            Law::AtPoint { .. } | Law::InPlane { .. } => Wrench {
-                force,
-                moment: arm.cross(&force),
-            },
-            Law::Perpendicular { .. } => Wrench {
-                force: Vector3::zeros(),
-                moment: arm.cross(&force),
-            },
-        }
+        self.wrench(force, arm.cross(&force))
     }
 
     /// Change of [`JointLaw::unit_wrench`] under small displacements of both markers.
@@ -251,16 +242,16 @@ impl JointLaw {
             }
         };
         let moment = arm_change.cross(&force) + arm.cross(&force_change);
-        match self.law {
-            Law::AtPoint { .. } | Law::InPlane { .. } => Wrench {
-                force: force_change,
-                moment,
-            },
-            Law::Perpendicular { .. } => Wrench {
-                force: Vector3::zeros(),
-                moment,
-            },
-        }
+        self.wrench(force_change, moment)
+    }
+
+    /// The perpendicular law has no force: the one that its moment is made of is an axis.
+    fn wrench(&self, force: Vector3<f64>, moment: Vector3<f64>) -> Wrench {
+        let force = match self.law {
+            Law::AtPoint { .. } | Law::InPlane { .. } => force,
+            Law::Perpendicular { .. } => Vector3::zeros(),
+        };
+        Wrench { force, moment }
     }
 
     /// The two factors of the moment `arm x force`; of the perpendicular law they are the own axis and the other one.
