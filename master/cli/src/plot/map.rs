@@ -9,17 +9,24 @@ use super::error::PlotError;
 use super::grid::{MapAxis, MapPanel, PlacedCell, Verdict};
 use super::legend::{Key, Legend};
 use super::panel::{Labels, Panel, room_above, room_below};
+use super::region::{NamedPoint, RegionLine, draw_line, draw_point};
 use super::style::{Marker, units};
 use super::tiling::{Sheet, check_number};
 
-/// Stability over two parameters, in one or several panels: a mark for the verdict on every cell, its growth factor as the
-/// colour behind.
+/// Stability over two parameters, in one or several panels: growth factors as colours of the cells, marks for the verdicts on
+/// them, lines and named points on top.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     /// Panels, two in a row, at most 12.
     pub panels: Vec<MapPanel>,
     /// Label of the colour bar, which is drawn if any cell has a growth factor.
     pub growth_label: String,
+    /// Whether every cell has a mark; without marks there is nothing to see where no cell has a growth factor.
+    pub has_marks: bool,
+    /// Lines over every panel, in the order of the legend.
+    pub lines: Vec<RegionLine>,
+    /// Points with a name in every panel.
+    pub points: Vec<NamedPoint>,
 }
 
 impl Pictured for StabilityMap {
@@ -28,7 +35,8 @@ impl Pictured for StabilityMap {
         self.panels.iter().try_for_each(MapPanel::check)?;
         let layout = Layout::new(self);
         let has_cells = layout.cells.iter().any(|cells| !cells.is_empty());
-        Ok(has_cells.then_some(layout))
+        let is_seen = has_cells && (self.has_marks || layout.colours.is_some());
+        Ok(is_seen.then_some(layout))
     }
 }
 
@@ -64,9 +72,9 @@ impl<'a> Layout<'a> {
         let cells: Vec<Vec<PlacedCell>> = plot.panels.iter().map(MapPanel::placed_cells).collect();
         let all = || cells.iter().flatten().map(|placed| placed.cell);
         let found = |verdict: Verdict| all().any(|cell| cell.verdict == verdict);
-        let entries = VERDICTS
+        let marked = VERDICTS
             .into_iter()
-            .filter(|(verdict, _)| found(*verdict))
+            .filter(|(verdict, _)| plot.has_marks && found(*verdict))
             .map(|(verdict, name)| {
                 let (marker, colour) = mark(verdict);
                 let key = Key {
@@ -76,6 +84,7 @@ impl<'a> Layout<'a> {
                 };
                 (key, name.to_owned())
             });
+        let entries = marked.chain(plot.lines.iter().map(RegionLine::entry));
         Self {
             plot,
             colours: GrowthColours::spanning(all().filter_map(|cell| cell.growth)),
@@ -97,7 +106,12 @@ impl<'a> Layout<'a> {
         if let Some(colours) = &self.colours {
             draw_colours(&inside, colours, cells)?;
         }
-        draw_marks(&inside, cells)?;
+        if self.plot.has_marks {
+            draw_marks(&inside, cells)?;
+        }
+        let (mut lines, mut points) = (self.plot.lines.iter(), self.plot.points.iter());
+        lines.try_for_each(|line| draw_line(&inside, line))?;
+        points.try_for_each(|point| draw_point(&inside, point))?;
         inside.frame()
     }
 
@@ -122,10 +136,7 @@ impl<'a> Layout<'a> {
 }
 
 /// The axes of a panel, without its cells.
-pub(super) fn panel_of<DB: Surface>(
-    area: &DrawingArea<DB, Shift>,
-    panel: &MapPanel,
-) -> Drawn<DB, Panel<DB>> {
+fn panel_of<DB: Surface>(area: &DrawingArea<DB, Shift>, panel: &MapPanel) -> Drawn<DB, Panel<DB>> {
     let labels = Labels {
         title: &panel.title,
         x: &panel.x.label,
@@ -135,7 +146,7 @@ pub(super) fn panel_of<DB: Surface>(
 }
 
 /// Fills every cell with the colour of its growth factor.
-pub(super) fn draw_colours<DB: Surface>(
+fn draw_colours<DB: Surface>(
     inside: &Panel<DB>,
     colours: &GrowthColours,
     cells: &[PlacedCell],

@@ -1,8 +1,8 @@
 //! Pictures of numerical results: data in, one SVG and one PNG out.
 //!
-//! Four kinds of [`Chart`]: [`TimePanels`] (quantities over time and, as [`Portrait`]s, over each other), [`CurvePlot`] (log-log
+//! Three kinds of [`Chart`]: [`TimePanels`] (quantities over time and, as [`Portrait`]s, over each other), [`CurvePlot`] (log-log
 //! curves of errors with reference slopes, a work-precision diagram with cost on the abscissa, any other curves as far as their
-//! axes reach), [`StabilityMap`] (stability over two parameters) and [`RegionPlot`] (a map with lines and named points).
+//! axes reach) and [`StabilityMap`] (stability over two parameters, with lines and named points).
 //!
 //! What cannot be drawn is a gap in a line, never a failure: NaN, infinity, a magnitude above 1e300, and on a
 //! logarithmic axis everything below 1e-300, zero and negative numbers.
@@ -38,7 +38,7 @@ pub use error::PlotError;
 pub use grid::{MapAxis, MapCell, MapPanel, Verdict};
 pub use map::StabilityMap;
 pub use portrait::Portrait;
-pub use region::{NamedPoint, RegionLine, RegionPlot};
+pub use region::{NamedPoint, RegionLine};
 pub use scale::Scale;
 pub(crate) use style::{PALETTE_SIZE, palette_colour};
 pub(crate) use tick::Ticks;

@@ -8,7 +8,7 @@ use linchpin_models::nonsmooth::spectrum::Spectrum;
 use super::{CurveSpectra, RegionCell};
 use crate::plot::{
     Chart, Curve, CurvePanel, CurvePlot, MapAxis, MapCell, MapPanel, Markers, NamedPoint,
-    PlotError, RegionLine, RegionPlot, Scale, Verdict,
+    PlotError, RegionLine, Scale, StabilityMap, Verdict,
 };
 
 /// What the picture shows of radii: explicit schemes go far beyond.
@@ -83,13 +83,15 @@ pub fn draw_region(
         name: point.label.clone(),
         place: (point.alpha_m, point.alpha_f),
     };
-    let plot = RegionPlot {
-        panel: MapPanel {
-            title: String::new(),
-            x: axis("alpha_m", &settings.alpha_m),
-            y: axis("alpha_f", &settings.alpha_f),
-            cells: cells.iter().map(cell_of).collect(),
-        },
+    let panel = MapPanel {
+        title: String::new(),
+        x: axis("alpha_m", &settings.alpha_m),
+        y: axis("alpha_f", &settings.alpha_f),
+        cells: cells.iter().map(cell_of).collect(),
+    };
+    let plot = StabilityMap {
+        panels: vec![panel],
+        has_marks: false,
         growth_label: format!("spectral radius for infinite frequency, up to {MOST_GROWTH}"),
         lines: lines(settings),
         points: settings.points.iter().map(point).collect(),

@@ -249,10 +249,7 @@ fn a_map_has_one_mark_for_each_cell() {
         .filter(|cell| cell.verdict == Verdict::Stable)
         .count();
     assert!((100..525).contains(&stable), "the map shows both: {stable}");
-    let plot = StabilityMap {
-        panels: vec![panel],
-        growth_label: "spectral radius ρ".into(),
-    };
+    let plot = stability_map(vec![panel], "spectral radius ρ");
     plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();
@@ -294,10 +291,7 @@ fn maps_without_growth_have_no_colour_bar() {
     };
     let panel =
         |title, count| map_panel(title, ratios(count, 1.0, 1e3), ratios(7, 1e-6, 1e-5), cell);
-    let plot = StabilityMap {
-        panels: vec![panel("a", 40), panel("b", 3)],
-        growth_label: "ρ".into(),
-    };
+    let plot = stability_map(vec![panel("a", 40), panel("b", 3)], "ρ");
     plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();

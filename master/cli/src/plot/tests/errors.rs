@@ -20,10 +20,7 @@ fn square(cells: usize) -> MapPanel {
 
 fn map_error(panel: MapPanel) -> PlotError {
     let directory = Directory::new("map-error");
-    let plot = StabilityMap {
-        panels: vec![panel],
-        growth_label: "ρ".into(),
-    };
+    let plot = stability_map(vec![panel], "ρ");
     plot.write(&directory.stem()).unwrap_err()
 }
 
@@ -82,10 +79,7 @@ fn pictures_without_panels_or_with_too_many_are_refused() {
         CurvePlot { panels: vec![] }.write(&stem),
         Err(PlotError::NoData { .. })
     ));
-    let empty = StabilityMap {
-        panels: vec![],
-        growth_label: String::new(),
-    };
+    let empty = stability_map(vec![], "");
     assert!(matches!(empty.write(&stem), Err(PlotError::NoData { .. })));
     let mut crowded = constant();
     crowded.panels = vec![crowded.panels[0].clone(); 13];

@@ -97,6 +97,16 @@ fn map_panel(
     }
 }
 
+fn stability_map(panels: Vec<MapPanel>, growth_label: &str) -> StabilityMap {
+    StabilityMap {
+        panels,
+        growth_label: growth_label.into(),
+        has_marks: true,
+        lines: Vec::new(),
+        points: Vec::new(),
+    }
+}
+
 /// `count` values from `first` to `last` in equal ratios.
 fn ratios(count: u32, first: f64, last: f64) -> Vec<f64> {
     (0..count)

@@ -121,10 +121,7 @@ fn assert_map_is_legible(directory: &Directory, scale: Scale, grid: &[f64], grow
     };
     let mut panel = map_panel("odd", grid.to_vec(), grid.to_vec(), cell);
     panel.x.scale = scale;
-    let plot = StabilityMap {
-        panels: vec![panel],
-        growth_label: "ρ".into(),
-    };
+    let plot = stability_map(vec![panel], "ρ");
     plot.write(&directory.stem()).unwrap();
     directory.svg().assert_legible();
 }

@@ -60,14 +60,14 @@ fn curves_without_a_point_to_draw_are_refused() {
     assert!(matches!(error, PlotError::TooManyPanels { .. }), "{error}");
 }
 
-fn plane(growth: Option<f64>) -> RegionPlot {
+fn plane(growth: Option<f64>) -> StabilityMap {
     let cell = |_: f64, _: f64| MapCell {
         verdict: Verdict::Stable,
         growth,
     };
-    RegionPlot {
-        panel: map_panel("", vec![1.0, 10.0, 100.0], vec![1.0, 10.0, 100.0], cell),
-        growth_label: "spectral radius".into(),
+    let panel = map_panel("", vec![1.0, 10.0, 100.0], vec![1.0, 10.0, 100.0], cell);
+    StabilityMap {
+        has_marks: false,
         lines: vec![
             RegionLine {
                 name: "limit".into(),
@@ -86,6 +86,7 @@ fn plane(growth: Option<f64>) -> RegionPlot {
                 place: (x, 10.0),
             })
             .to_vec(),
+        ..stability_map(vec![panel], "spectral radius")
     }
 }
 
@@ -110,7 +111,7 @@ fn a_region_without_a_factor_or_a_cell_is_refused() {
     let error = plane(None).write(&directory.stem()).unwrap_err();
     assert!(matches!(error, PlotError::NoData { .. }), "{error}");
     let mut plot = plane(Some(0.5));
-    plot.panel.cells.pop();
+    plot.panels[0].cells.pop();
     let error = plot.write(&directory.stem()).unwrap_err();
     assert!(matches!(error, PlotError::CellCount { .. }), "{error}");
 }

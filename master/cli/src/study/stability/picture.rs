@@ -27,6 +27,9 @@ pub fn plot_of(maps: &[CaseMap], grid: &Grid) -> StabilityMap {
     StabilityMap {
         panels: maps.iter().map(panel).collect(),
         growth_label: "spectral radius".to_owned(),
+        has_marks: true,
+        lines: Vec::new(),
+        points: Vec::new(),
     }
 }
 
