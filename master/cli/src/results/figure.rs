@@ -112,27 +112,11 @@ fn middle_of_step(scene: &Scene, trace: &Trace) -> f64 {
     }
 }
 
-/// A series of the picture with the places of its columns in a row: their sum over another sum.
-pub(super) struct Traced {
-    over: Vec<usize>,
-    curve: Vec<usize>,
-    pub trace: Trace,
-}
-
-impl Traced {
-    /// Takes the values of a row.
-    pub fn record(&mut self, values: &[f64]) {
-        let sum = |places: &[usize]| places.iter().map(|place| values[*place]).sum();
-        let (over, curve) = (&self.over, &self.curve);
-        self.trace.points.push(|| (sum(over), sum(curve)));
-    }
-}
-
 /// Place of the time in a row.
 const TIME: usize = 0;
 
 /// The series of the picture, still empty.
-pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Traced> {
+pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Trace> {
     if scene.output.panels.is_empty() {
         return usual_traces(row);
     }
@@ -146,26 +130,21 @@ pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Traced> {
         own.curves.iter().map(move |curve| {
             let places = places_of(curve);
             let shows_multipliers = places.iter().any(is_multiplier);
-            Traced {
-                over: over.clone(),
-                trace: Trace::new(curve.join(" + "), panel, shows_multipliers),
-                curve: places,
-            }
+            let places = [over.clone(), places];
+            Trace::new(curve.join(" + "), panel, shows_multipliers, places)
         })
     });
     traced.collect()
 }
 
-fn usual_traces(row: &Row) -> Vec<Traced> {
+fn usual_traces(row: &Row) -> Vec<Trace> {
     let columns = row.columns().iter().enumerate();
     let traced = |(place, name): (usize, &String)| {
         let drawn = row.drawn(place)?;
         let panel = USUAL.iter().position(|(_, kind)| *kind == drawn)?;
-        Some(Traced {
-            over: vec![TIME],
-            curve: vec![place],
-            trace: Trace::new(name.clone(), panel, drawn == Drawn::Multiplier),
-        })
+        let shows_multipliers = drawn == Drawn::Multiplier;
+        let places = [vec![TIME], vec![place]];
+        Some(Trace::new(name.clone(), panel, shows_multipliers, places))
     };
     columns.filter_map(traced).collect()
 }

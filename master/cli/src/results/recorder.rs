@@ -10,8 +10,8 @@ use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
-use super::figure::{Traced, traces};
-use super::{Impacts, RunReport};
+use super::figure::traces;
+use super::{Impacts, RunReport, Trace};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
@@ -30,12 +30,10 @@ pub struct RunRecorder {
     closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
     scene: Scene,
-    traces: Vec<Traced>,
+    traces: Vec<Trace>,
     impacts: Option<Impacts>,
     motion: Option<Motion>,
     bar: ProgressBar,
-    t_start: f64,
-    t_end: f64,
     started: Instant,
 }
 
@@ -66,8 +64,6 @@ impl RunRecorder {
             impacts: None,
             motion: None,
             bar: progress::bar(BAR_LENGTH, BAR, shows_progress),
-            t_start: scene.t_start,
-            t_end: scene.t_end,
             started: Instant::now(),
         }
     }
@@ -82,7 +78,7 @@ impl RunRecorder {
         Ok(RunReport {
             statistics,
             errors: self.errors,
-            traces: self.traces.into_iter().map(|own| own.trace).collect(),
+            traces: self.traces,
             impacts: self.impacts,
             motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
@@ -138,8 +134,8 @@ impl Recorder for RunRecorder {
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
-        for traced in &mut self.traces {
-            traced.record(row.values());
+        for trace in &mut self.traces {
+            trace.record(row.values());
         }
         if let Some(impacts) = &mut self.impacts {
             impacts.record(row.values());
@@ -155,11 +151,12 @@ impl Recorder for RunRecorder {
     }
 
     fn progress(&mut self, t: f64) {
-        if self.bar.is_hidden() || (t < self.t_end && self.bar.elapsed() < REFRESH) {
+        let Scene { t_start, t_end, .. } = self.scene;
+        if self.bar.is_hidden() || (t < t_end && self.bar.elapsed() < REFRESH) {
             return;
         }
-        let speed = (t - self.t_start) / self.started.elapsed().as_secs_f64();
-        let share = (t - self.t_start) / (self.t_end - self.t_start);
+        let speed = (t - t_start) / self.started.elapsed().as_secs_f64();
+        let share = (t - t_start) / (t_end - t_start);
         self.bar.set_position((share * BAR_LENGTH as f64) as u64);
         self.bar
             .set_message(format!("{t:.4} s ({speed:.3} x real time)"));
