@@ -19,12 +19,12 @@ use super::StudyError;
 use super::errors::Quantity;
 pub use super::run::{Ending, StudyRun};
 use super::stability::{CaseMap, Grid};
-pub use envelope::{Bound, Cheapest, Cost, cheapest, cost_of, ratio};
+pub use envelope::{Bound, Cheapest, Cost, Ratio, cheapest, cost_of, ratio};
 pub use page::text as page;
 pub use pictures::Picture;
 pub use plan::{Depth, Plan};
 pub use runs::ToleranceRun;
-pub use summary::{EnvelopeRow, Ratio, envelope};
+pub use summary::{EnvelopeRow, envelope};
 pub use table::json;
 use trace::Trace;
 

@@ -4,9 +4,9 @@ use std::fmt::{self, Display};
 
 use linchpin_master::results::Statistics;
 
-use super::envelope::{Bound, Cheapest};
+use super::envelope::{Bound, Cheapest, Ratio};
 use super::pictures::{MONOLITHIC, Picture};
-use super::summary::{EnvelopeRow, Ratio, envelope};
+use super::summary::{EnvelopeRow, envelope};
 use super::{Depth, Ending, Report, SceneReport, SettingReport, StudyRun};
 use crate::html::Escaped;
 use crate::plot::PlotError;
