@@ -4,12 +4,12 @@ use std::convert::Infallible;
 
 use linchpin_master::RunError;
 use linchpin_master::cosimulation::{Connect, Options, describe};
-use linchpin_master::results::Statistics;
+use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::{Override, Scene, SceneErrors};
 use linchpin_proto::v1::Model;
 
 use super::StudyError;
-use super::columns::{self, Column};
+use super::columns::{self, Column, places, sum};
 use crate::connect::{Connector, Place};
 use crate::simulate::{Recorder, SimulateError, simulate};
 
@@ -94,6 +94,48 @@ pub fn simulated(
         Ok(statistics) => Ok(Ok(statistics)),
         Err(SimulateError::Run(error)) => divergence(error).map(Err),
         Err(SimulateError::Record(never)) => match never {},
+    }
+}
+
+/// The same; `take` gets the time and the values of the named columns at every macro point, `None` for those that the run does
+/// not have.
+pub fn watched(
+    scene: &Scene,
+    names: &[Option<String>],
+    take: impl FnMut(f64, &[Option<f64>]),
+) -> Result<Result<Statistics, String>, RunError> {
+    let mut watcher = Watcher {
+        names,
+        places: Vec::new(),
+        values: Vec::new(),
+        take,
+    };
+    simulated(scene, &mut watcher)
+}
+
+/// Looks at sums of result columns.
+struct Watcher<'a, F> {
+    names: &'a [Option<String>],
+    places: Vec<Option<Vec<usize>>>,
+    values: Vec<Option<f64>>,
+    take: F,
+}
+
+impl<F: FnMut(f64, &[Option<f64>])> Recorder for Watcher<'_, F> {
+    type Error = Infallible;
+
+    fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
+        let names = self.names.iter();
+        self.places = names.map(|name| places(row, name.as_deref()?)).collect();
+        Ok(())
+    }
+
+    fn record(&mut self, row: &Row) -> Result<(), Infallible> {
+        let value = |places: &Option<Vec<usize>>| Some(sum(row, places.as_deref()?));
+        self.values.clear();
+        self.values.extend(self.places.iter().map(value));
+        (self.take)(row.values()[0], &self.values);
+        Ok(())
     }
 }
 

@@ -3,21 +3,18 @@
 mod picture;
 mod table;
 
-use std::convert::Infallible;
-
 use linchpin_master::results::Statistics;
 use linchpin_master::scene::{self, ConvergeSettings, Scene};
 use rayon::prelude::*;
 
 use super::StudyError;
-use super::columns::{Column, record};
-use super::errors::ErrorRecorder;
+use super::columns::{Column, names, record};
+use super::errors::RunErrors;
 pub use super::errors::{Errors, Quantity};
 pub use super::orders::{least_squares, neighbouring};
-use super::reference::{Reference, TrajectoryRecorder};
+use super::reference::Reference;
 pub use super::run::{Ending, StudyRun};
-use super::runs::{Variant, simulated, with_macro_step};
-use crate::simulate::Recorder;
+use super::runs::{Variant, watched, with_macro_step};
 pub use picture::{draw_errors, draw_work_precision};
 pub use table::{rows, summary};
 
@@ -136,24 +133,23 @@ impl Study {
 
     fn compared(&self, reference: &Reference, macro_step: f64) -> Result<Ending, StudyError> {
         let are_means = self.variant.scene.coupling.multipliers_are_step_means();
-        let mut recorder = ErrorRecorder::new(reference, &self.columns, are_means);
-        let statistics = self.simulate(macro_step, &mut recorder)?;
-        Ok(Ending::of(statistics, recorder.errors()))
+        let mut errors = RunErrors::new(reference, &self.columns, are_means);
+        let statistics = self.simulate(macro_step, |t, values| errors.add(t, values))?;
+        Ok(Ending::of(statistics, errors.errors()))
     }
 
     /// A run that nothing can be compared with: the finest one has diverged.
     fn alone(&self, macro_step: f64) -> Result<Ending, StudyError> {
-        let mut recorder = TrajectoryRecorder::new(Vec::new());
-        let statistics = self.simulate(macro_step, &mut recorder)?;
+        let statistics = self.simulate(macro_step, |_, _| ())?;
         Ok(Ending::of(statistics, Errors::default()))
     }
 
     fn simulate(
         &self,
         macro_step: f64,
-        recorder: &mut impl Recorder<Error = Infallible>,
+        take: impl FnMut(f64, &[Option<f64>]),
     ) -> Result<Result<Statistics, String>, StudyError> {
         let scene = with_macro_step(&self.variant.scene, macro_step)?;
-        simulated(&scene, recorder).map_err(|error| self.variant.failed(error))
+        watched(&scene, &names(&self.columns), take).map_err(|error| self.variant.failed(error))
     }
 }

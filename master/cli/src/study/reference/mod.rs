@@ -8,11 +8,11 @@ use linchpin_master::results::Statistics;
 use linchpin_master::scene::{self, Scene};
 
 use super::StudyError;
-use super::columns::{Column, Kind};
-use super::runs::{Variant, simulated};
+use super::columns::{Column, Kind, names};
+use super::runs::{Variant, watched};
 use crate::closed_form::{self, ClosedForm};
 pub use monolithic::Monolithic;
-pub use trajectory::{Trajectory, TrajectoryRecorder};
+pub use trajectory::Trajectory;
 
 /// Exact or nearly exact values of the judged columns.
 pub enum Reference {
@@ -87,12 +87,13 @@ impl Reference {
         scene: &Scene,
         columns: &[Column],
     ) -> Result<Result<(Self, Statistics), String>, RunError> {
-        let names = columns.iter().map(|column| Some(column.name.clone()));
-        let mut recorder = TrajectoryRecorder::new(names.collect());
-        let outcome = simulated(scene, &mut recorder)?;
+        let mut trajectory = Trajectory::new(columns.len());
+        let outcome = watched(scene, &names(columns), |t, values| {
+            trajectory.add(t, values);
+        })?;
         let at_points_only = columns.iter().map(|column| column.kind == Kind::Multiplier);
         let reference = Self::Run {
-            trajectory: recorder.into_trajectory(),
+            trajectory,
             at_points_only: at_points_only.collect(),
         };
         Ok(outcome.map(|statistics| (reference, statistics)))

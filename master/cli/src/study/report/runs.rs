@@ -1,16 +1,15 @@
 //! Runs whose time is measured.
 
 use linchpin_master::RunError;
-use linchpin_master::results::Statistics;
 use linchpin_master::scene::Scene;
 
 use super::Depth;
 use crate::study::StudyError;
-use crate::study::columns::Column;
-use crate::study::errors::{ErrorRecorder, Quantity};
+use crate::study::columns::{Column, names};
+use crate::study::errors::{Quantity, RunErrors};
 use crate::study::reference::{Monolithic, Reference};
 use crate::study::run::{Ending, StudyRun};
-use crate::study::runs::{simulated, with_macro_step};
+use crate::study::runs::{watched, with_macro_step};
 
 /// A run of the monolithic scene.
 pub struct ToleranceRun {
@@ -67,8 +66,7 @@ impl Compared<'_> {
     pub fn run(&self, scene: &Scene, macro_step: f64) -> Result<StudyRun, StudyError> {
         let scene = with_macro_step(scene, macro_step)?;
         let are_means = scene.coupling.multipliers_are_step_means();
-        let recorder = || ErrorRecorder::new(self.reference, self.columns, are_means);
-        let ending = self.timed(recorder, |recorder| simulated(&scene, recorder));
+        let ending = self.timed(&scene, &names(self.columns), are_means);
         Ok(StudyRun { macro_step, ending })
     }
 
@@ -83,24 +81,17 @@ impl Compared<'_> {
         macro_step: f64,
     ) -> Result<ToleranceRun, StudyError> {
         let scene = monolithic.with_tolerance(tolerance, macro_step)?;
-        let names = monolithic.names();
-        let recorder =
-            || ErrorRecorder::of_names(self.reference, self.columns, names.clone(), false);
-        let ending = self.timed(recorder, |recorder| simulated(&scene, recorder));
+        let ending = self.timed(&scene, monolithic.names(), false);
         Ok(ToleranceRun { tolerance, ending })
     }
 
     /// Runs several times; only the time differs from run to run.
-    fn timed<'r>(
-        &self,
-        recorder: impl Fn() -> ErrorRecorder<'r>,
-        run: impl Fn(&mut ErrorRecorder<'r>) -> Result<Result<Statistics, String>, RunError>,
-    ) -> Ending {
+    fn timed(&self, scene: &Scene, names: &[Option<String>], are_means: bool) -> Ending {
         let mut shortest: Option<Ending> = None;
         let mut spent = 0.0;
         for _ in 0..self.repetitions() {
-            let mut recorder = recorder();
-            let statistics = match run(&mut recorder) {
+            let mut errors = RunErrors::new(self.reference, self.columns, are_means);
+            let statistics = match watched(scene, names, |t, values| errors.add(t, values)) {
                 Ok(Ok(statistics)) => statistics,
                 Ok(Err(reason)) => return Ending::Stopped(reason),
                 Err(RunError::Scene(refusal)) => return Ending::Refused(refusal.to_string()),
@@ -111,7 +102,7 @@ impl Compared<'_> {
             let known = shortest.as_ref().and_then(Ending::wall_time);
             if known.is_none_or(|known| time < known) {
                 shortest = Some(Ending::Done {
-                    errors: recorder.errors(),
+                    errors: errors.errors(),
                     statistics: Box::new(statistics),
                 });
             }
