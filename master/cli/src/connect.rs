@@ -84,16 +84,16 @@ impl Connector {
     }
 
     fn in_this_process(&self, subsystem: &Subsystem) -> Box<dyn Connection> {
-        let host = Arc::new(Host::new(models()));
+        let host = Host::new(models());
         match (subsystem.calls, self.place) {
             (Calls::Unary, _) => Box::new(Threaded::new(
                 Arc::new(UnaryTurns::new(host)),
                 "in process, unary calls",
             )),
             (Calls::Automatic, Place::Threads) => {
-                Box::new(Threaded::new(host, "in process, own thread"))
+                Box::new(Threaded::new(Arc::new(host), "in process, own thread"))
             }
-            (Calls::Automatic, _) => Box::new(Direct::new(host)),
+            (Calls::Automatic, _) => Box::new(Direct::new(Arc::new(host))),
         }
     }
 

@@ -22,7 +22,7 @@ pub struct Peer {
 impl Peer {
     /// The built-in models behind a script.
     pub fn scripted(workshop: &Workshop, script: impl FnOnce(Scripted) -> Scripted) -> Self {
-        let contract = Arc::new(script(Scripted::new(Box::new(Host::new(models())))));
+        let contract = Arc::new(script(Scripted::new(Arc::new(Host::new(models())))));
         Self::serve(workshop, contract)
     }
 
