@@ -74,13 +74,8 @@ pub struct OutputArguments {
 }
 
 impl OutputArguments {
-    /// Makes the folder and tries whether files can be written there, before any work is done.
-    pub fn prepare(&self, scene: &Scene) -> Result<PathBuf, CommandError> {
-        self.prepare_for(&scene.name)
-    }
-
-    /// The same for results of something else than a scene.
-    pub fn prepare_for(&self, name: &str) -> Result<PathBuf, CommandError> {
+    /// Makes the folder for results of this name and tries whether files can be written there, before any work is done.
+    pub fn prepare(&self, name: &str) -> Result<PathBuf, CommandError> {
         let folder = self
             .out
             .clone()

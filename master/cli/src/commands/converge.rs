@@ -50,7 +50,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let given = &arguments.scene;
     let settings = given.section(&scene.converge, "converge", flags)?;
     let output = &arguments.output;
-    let folder = output.prepare(&scene)?;
+    let folder = output.prepare(&scene.name)?;
     let runs = number_of_runs(&scene, settings);
     let cases = output.with_progress(runs, "runs", |tick| converge(&scene, settings, tick))?;
     write_table(&folder.join("converge.csv"), rows(&cases))?;

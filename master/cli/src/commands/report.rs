@@ -57,7 +57,7 @@ impl Arguments {
 /// Runs the study and writes page and tables.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let plan = arguments.plan()?;
-    let folder = arguments.output.prepare_for(&plan.name)?;
+    let folder = arguments.output.prepare(&plan.name)?;
     let tasks = plan.number_of_tasks();
     let output = &arguments.output;
     let found = output.with_progress(tasks, "runs", |tick| report(&plan, tick))?;

@@ -63,7 +63,7 @@ impl Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
     let case_folders = case_folders(&scene)?;
-    let folder = arguments.output.prepare(&scene)?;
+    let folder = arguments.output.prepare(&scene.name)?;
     let job = Job {
         arguments,
         interrupt: interrupt::on_signals()?,

@@ -33,7 +33,7 @@ pub struct Arguments {
 /// Finds the spectra and writes tables and pictures.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let file = load_spectrum(&arguments.file)?;
-    let folder = arguments.output.prepare_for(&file.name)?;
+    let folder = arguments.output.prepare(&file.name)?;
     let output = &arguments.output;
     let settings = file.region.as_ref();
     let (found, cells) = output.with_progress(number_of_points(&file), "points", |tick| {

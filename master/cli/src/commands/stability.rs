@@ -114,7 +114,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let given = &arguments.scene;
     let grid = Grid::new(given.section(&scene.stability, "stability", flags)?);
     let output = &arguments.output;
-    let folder = output.prepare(&scene)?;
+    let folder = output.prepare(&scene.name)?;
     let points = number_of_points(&scene, &grid);
     let maps = output.with_progress(points, "points", |tick| map(&scene, &grid, tick))?;
     write_table(&folder.join("stability.csv"), rows(&maps))?;

@@ -27,7 +27,6 @@ pub struct RunRecorder {
     folder: PathBuf,
     stale: Vec<PathBuf>,
     table: Option<csv::Writer<File>>,
-    closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
     scene: Scene,
     traces: Vec<Trace>,
@@ -57,7 +56,6 @@ impl RunRecorder {
             folder: folder.to_owned(),
             stale,
             table: None,
-            closed_form: ClosedForm::of(scene),
             errors: None,
             scene: scene.clone(),
             traces: Vec::new(),
@@ -125,10 +123,8 @@ impl Recorder for RunRecorder {
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
         self.traces = traces(&self.scene, row);
         self.impacts = Some(Impacts::of(&self.scene, row));
-        self.errors = self
-            .closed_form
-            .take()
-            .map(|closed_form| ErrorMeter::new(closed_form, row));
+        let closed_form = ClosedForm::of(&self.scene);
+        self.errors = closed_form.map(|closed_form| ErrorMeter::new(closed_form, row));
         self.open_table()?;
         self.write(row.columns())
     }
