@@ -44,12 +44,6 @@ impl Pictured for StabilityMap {
 const MARK_SHARE: f64 = 0.3;
 const LARGEST_MARK: f64 = 8.0;
 
-const VERDICTS: [(Verdict, &str); 3] = [
-    (Verdict::Stable, "stable"),
-    (Verdict::Unstable, "unstable"),
-    (Verdict::Undecided, "undecided"),
-];
-
 /// Marks as in stability plots of the co-simulation literature: circles where stable, the rest recedes.
 fn mark(verdict: Verdict) -> (Marker, RGBColor) {
     match verdict {
@@ -72,17 +66,17 @@ impl<'a> Layout<'a> {
         let cells: Vec<Vec<PlacedCell>> = plot.panels.iter().map(MapPanel::placed_cells).collect();
         let all = || cells.iter().flatten().map(|placed| placed.cell);
         let found = |verdict: Verdict| all().any(|cell| cell.verdict == verdict);
-        let marked = VERDICTS
+        let marked = Verdict::ALL
             .into_iter()
-            .filter(|(verdict, _)| plot.has_marks && found(*verdict))
-            .map(|(verdict, name)| {
+            .filter(|verdict| plot.has_marks && found(*verdict))
+            .map(|verdict| {
                 let (marker, colour) = mark(verdict);
                 let key = Key {
                     marker: Some(marker),
                     colour,
                     line: None,
                 };
-                (key, name.to_owned())
+                (key, verdict.name().to_owned())
             });
         let entries = marked.chain(plot.lines.iter().map(RegionLine::entry));
         Self {

@@ -100,12 +100,13 @@ pub fn draw_region(
 }
 
 fn cell_of(cell: &RegionCell) -> MapCell {
-    let (verdict, growth) = match cell.growth.is_stable() {
-        true => (Verdict::Stable, cell.growth.at_infinity.min(1.0)),
-        false => (Verdict::Unstable, cell.growth.largest.min(MOST_GROWTH)),
+    let is_stable = cell.growth.is_stable();
+    let growth = match is_stable {
+        true => cell.growth.at_infinity.min(1.0),
+        false => cell.growth.largest.min(MOST_GROWTH),
     };
     MapCell {
-        verdict,
+        verdict: Verdict::of(is_stable),
         growth: Some(growth),
     }
 }

@@ -6,6 +6,7 @@ use linchpin_models::nonsmooth::spectrum::Spectrum;
 use serde::Serialize;
 
 use super::{CurveSpectra, RegionCell};
+use crate::plot::Verdict;
 
 /// A radius up to `1 + ROUNDING` counts as stable.
 const ROUNDING: f64 = 1e-6;
@@ -52,10 +53,7 @@ pub fn region_rows(cells: &[RegionCell]) -> impl Iterator<Item = impl Serialize>
         alpha_f: cell.alpha_f,
         largest_radius: cell.growth.largest,
         radius_at_infinity: cell.growth.at_infinity,
-        verdict: match cell.growth.is_stable() {
-            true => "stable",
-            false => "unstable",
-        },
+        verdict: Verdict::of(cell.growth.is_stable()).name(),
     })
 }
 

@@ -61,8 +61,7 @@ fn scale_of(values: &[f64]) -> Scale {
 fn drawn(cell: &Cell) -> MapCell {
     let verdict = match cell.agreement() {
         Some(Agreement::Undecided) => Verdict::Undecided,
-        _ if cell.simulated.is_stable() => Verdict::Stable,
-        _ => Verdict::Unstable,
+        _ => Verdict::of(cell.simulated.is_stable()),
     };
     MapCell {
         verdict,

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Serialize;
 
 use super::{Agreement, CaseMap, Cell};
+use crate::plot::Verdict;
 
 /// One point as a row of `stability.csv`; what is not known is an empty field.
 #[derive(Debug, Serialize)]
@@ -30,11 +31,7 @@ fn record<'a>(case: &'a str, cell: &Cell) -> Record<'a> {
         x: cell.x,
         y: cell.y,
         case,
-        simulated: if cell.simulated.is_stable() {
-            "stable"
-        } else {
-            "unstable"
-        },
+        simulated: Verdict::of(cell.simulated.is_stable()).name(),
         growth: cell.simulated.growth,
         steps: cell.simulated.steps,
         spectral_radius: cell.radius,
