@@ -50,6 +50,12 @@ impl Variant {
         }
     }
 
+    /// Nothing where a run of this variant diverged; an error that has nothing to do with the numbers is given back.
+    pub fn nothing_if_diverged<T>(&self, error: RunError) -> Result<Option<T>, StudyError> {
+        let diverged = divergence(error).map(|_| None);
+        diverged.map_err(|error| self.failed(error))
+    }
+
     /// The result columns that studies judge; `models` are those of [`Variant::models`].
     pub fn judged_columns(&self, models: &[Model]) -> Result<Vec<Column>, StudyError> {
         columns::judged(&self.scene, models).map_err(|source| self.failed(source))
