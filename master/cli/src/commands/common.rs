@@ -90,7 +90,8 @@ impl OutputArguments {
         !self.quiet && !is_logged && std::io::stderr().is_terminal()
     }
 
-    /// Does work of so many parts, called `unit`, under a progress bar; the work calls what it is given after each part.
+    /// Does work of so many parts, called `unit`, under a progress bar; the work calls what it is given after each
+    /// part.
     pub fn with_progress<T>(
         &self,
         parts: usize,

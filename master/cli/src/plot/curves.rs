@@ -49,7 +49,8 @@ pub struct CurvePanel {
 pub enum Markers {
     /// At its points, which must be within the ranges of the axes.
     AtPoints,
-    /// Few, equally far apart along the x axis, over which points must increase. The curve ends where it leaves the axes.
+    /// Few, equally far apart along the x axis, over which points must increase. The curve ends where it leaves the
+    /// axes.
     Spread,
 }
 

@@ -13,8 +13,8 @@ use super::region::{NamedPoint, RegionLine, draw_line, draw_point};
 use super::style::{Marker, units};
 use super::tiling::{Sheet, check_number};
 
-/// Stability over two parameters, in one or several panels: growth factors as colours of the cells, marks for the verdicts on
-/// them, lines and named points on top.
+/// Stability over two parameters, in one or several panels: growth factors as colours of the cells, marks for the
+/// verdicts on them, lines and named points on top.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     /// Panels, two in a row, at most 12.

@@ -1,8 +1,9 @@
 //! Pictures of numerical results: data in, one SVG and one PNG out.
 //!
-//! Three kinds of [`Chart`]: [`TimePanels`] (quantities over time and, as [`Portrait`]s, over each other), [`CurvePlot`] (log-log
-//! curves of errors with reference slopes, a work-precision diagram with cost on the abscissa, any other curves as far as their
-//! axes reach) and [`StabilityMap`] (stability over two parameters, with lines and named points).
+//! Three kinds of [`Chart`]: [`TimePanels`] (quantities over time and, as [`Portrait`]s, over each other),
+//! [`CurvePlot`] (log-log curves of errors with reference slopes, a work-precision diagram with cost on the abscissa,
+//! any other curves as far as their axes reach) and [`StabilityMap`] (stability over two parameters, with lines and
+//! named points).
 //!
 //! What cannot be drawn is a gap in a line, never a failure: NaN, infinity, a magnitude above 1e300, and on a
 //! logarithmic axis everything below 1e-300, zero and negative numbers.

@@ -17,8 +17,8 @@ use super::thinning::thinned;
 use super::tiling::{PICTURE_WIDTH, Tiling, check_number};
 use super::time_marks::TimeMarks;
 
-/// Quantities over a common time axis, one panel above the other, and below them panels over other quantities. A legend is added
-/// if a panel has several curves.
+/// Quantities over a common time axis, one panel above the other, and below them panels over other quantities. A legend
+/// is added if a panel has several curves.
 ///
 /// Long series are thinned out to the extremes within each pixel column, which does not change the picture.
 #[derive(Clone, Debug, Default)]

@@ -103,8 +103,8 @@ pub fn simulated(
     }
 }
 
-/// The same; `take` gets the time and the values of the named columns at every macro point, `None` for those that the run does
-/// not have.
+/// The same; `take` gets the time and the values of the named columns at every macro point, `None` for those that the
+/// run does not have.
 pub fn watched(
     scene: &Scene,
     names: &[Option<String>],
