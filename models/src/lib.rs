@@ -41,10 +41,10 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(multibody::SpatialMultibody),
         Box::new(dc_motor::DcMotor),
         Box::new(pi_controller::PiController),
-        Box::new(nonsmooth::SliderCrank),
-        Box::new(nonsmooth::MassChain),
-        Box::new(nonsmooth::BouncingBall),
-        Box::new(nonsmooth::Block),
-        Box::new(nonsmooth::Woodpecker),
+        Box::new(nonsmooth::SLIDER_CRANK),
+        Box::new(nonsmooth::MASS_CHAIN),
+        Box::new(nonsmooth::BOUNCING_BALL),
+        Box::new(nonsmooth::BLOCK),
+        Box::new(nonsmooth::WOODPECKER),
     ]
 }

@@ -30,8 +30,9 @@ mod subsystem;
 pub mod system;
 pub mod systems;
 
-pub use subsystem::block::Block;
-pub use subsystem::bouncing_ball::BouncingBall;
-pub use subsystem::masses::MassChain;
-pub use subsystem::slider_crank::SliderCrank;
-pub use subsystem::woodpecker::Woodpecker;
+pub use subsystem::block::BLOCK;
+pub use subsystem::bouncing_ball::BOUNCING_BALL;
+pub use subsystem::masses::MASS_CHAIN;
+pub use subsystem::model::NonsmoothModel;
+pub use subsystem::slider_crank::SLIDER_CRANK;
+pub use subsystem::woodpecker::WOODPECKER;

@@ -1,4 +1,4 @@
-//! The load that a multiplier of a joint puts on the markers at its ends.
+//! The conditions of joints, and the load that a multiplier puts on the markers at the ends of its joint.
 //!
 //! `r`: position of a marker (m), `T`: rotation from its axes to inertial ones, `p = r + T s` with the joint's point `s`
 //! in the axes of the marker, `e = T axis`. Each law is one scalar condition `g` (S1 Sect. 3.2):
@@ -12,8 +12,10 @@
 //! All per unit of the multiplier, in inertial axes: the derivative of `g` with respect to a translation and a rotation of
 //! the marker. So the ideal joint does no work, and forces and moments of the two ends cancel.
 
+mod condition;
 mod message;
 
+pub use condition::Marker;
 pub use message::JointLoadError;
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
@@ -213,16 +215,7 @@ impl JointLaw {
     /// counts.
     pub fn unit_wrench(&self, end: End, poses: &[Pose; 2]) -> Wrench {
         let Arms { force, arm } = self.arms(end, poses);
-        match self.law {
-            Law::AtPoint { .. } | Law::InPlane { .. } => Wrench {
-                force,
-                moment: arm.cross(&force),
-            },
-            Law::Perpendicular { .. } => Wrench {
-                force: Vector3::zeros(),
-                moment: arm.cross(&force),
-            },
-        }
+        self.wrench(force, arm.cross(&force))
     }
 
     /// Change of [`JointLaw::unit_wrench`] under small displacements of both markers.
@@ -239,7 +232,7 @@ impl JointLaw {
             (Law::AtPoint { .. }, _) => (Vector3::zeros(), own.cross(&arm)),
             (Law::InPlane { .. }, End::A) => (rotated_b.cross(&force), own.cross(&arm)),
             (Law::InPlane { .. }, End::B) => {
-                let point = poses[0].rotation * self.points[0];
+                let point = poses[0].carried(&self.points[0]);
                 let moved_point = moved[0].position + rotated_a.cross(&point);
                 (rotated_b.cross(&force), moved_point - moved[1].position)
             }
@@ -249,16 +242,16 @@ impl JointLaw {
             }
         };
         let moment = arm_change.cross(&force) + arm.cross(&force_change);
-        match self.law {
-            Law::AtPoint { .. } | Law::InPlane { .. } => Wrench {
-                force: force_change,
-                moment,
-            },
-            Law::Perpendicular { .. } => Wrench {
-                force: Vector3::zeros(),
-                moment,
-            },
-        }
+        self.wrench(force_change, moment)
+    }
+
+    /// The perpendicular law has no force: the one that its moment is made of is an axis.
+    fn wrench(&self, force: Vector3<f64>, moment: Vector3<f64>) -> Wrench {
+        let force = match self.law {
+            Law::AtPoint { .. } | Law::InPlane { .. } => force,
+            Law::Perpendicular { .. } => Vector3::zeros(),
+        };
+        Wrench { force, moment }
     }
 
     /// The two factors of the moment `arm x force`; of the perpendicular law they are the own axis and the other one.
@@ -268,22 +261,22 @@ impl JointLaw {
             End::A => 1.0,
             End::B => -1.0,
         };
-        let own_arm = poses[end as usize].rotation * self.points[end as usize];
+        let own_arm = poses[end as usize].carried(&self.points[end as usize]);
         match (self.law, end) {
             (Law::AtPoint { direction }, _) => Arms {
                 force: sign * direction,
                 arm: own_arm,
             },
             (Law::InPlane { normal }, End::A) => Arms {
-                force: b.rotation * normal,
+                force: b.carried(&normal),
                 arm: own_arm,
             },
             (Law::InPlane { normal }, End::B) => Arms {
-                force: -(b.rotation * normal),
-                arm: a.position + a.rotation * self.points[0] - b.position,
+                force: -b.carried(&normal),
+                arm: a.point(&self.points[0]) - b.position,
             },
             (Law::Perpendicular { axes }, _) => {
-                let axis = |end: End| poses[end as usize].rotation * axes[end as usize];
+                let axis = |end: End| poses[end as usize].carried(&axes[end as usize]);
                 Arms {
                     force: axis(end.other()),
                     arm: axis(end),

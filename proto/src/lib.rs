@@ -3,7 +3,7 @@
 //! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
 //! * [`exchange`]: what the parts of an exchange must keep to;
-//! * [`joint_load`]: the load that a joint puts on a marker;
+//! * [`joint_load`]: the conditions of joints and the loads that they put on markers;
 //! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
 //! * [`status`]: failures as gRPC statuses;
 //! * [`version`]: which protocol versions understand each other.

@@ -17,6 +17,7 @@ pub mod random_pairs;
 pub mod reference;
 pub mod runs;
 pub mod scenes;
+pub mod scripted;
 pub mod spring_pair;
 pub mod traces;
 pub mod tuning;

@@ -13,7 +13,8 @@ use linchpin_proto::version::{self, PROTOCOL};
 
 use crate::instance::{Instance, Signals};
 use crate::joint_load::request::joint_loads;
-use crate::{Model, Setup, setup::SetupError};
+use crate::setup::{SetupError, names};
+use crate::{Model, Setup};
 
 /// What a worker allows its masters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -127,8 +128,7 @@ impl Host {
     fn model(&self, name: &str) -> Result<&dyn Model, Failure> {
         let model = self.models.get(name).map(|model| &**model);
         model.ok_or_else(|| {
-            let known: Vec<&str> = self.models.keys().map(String::as_str).collect();
-            let known = known.join(", ");
+            let known = names(self.models.keys());
             let message = format!("this worker has no model \"{name}\"; it has: {known}");
             Failure::misuse("model", message)
         })

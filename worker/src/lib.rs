@@ -6,8 +6,7 @@
 //!
 //! * [`subsystem`], [`inputs`], [`snapshot`], [`joint_load`]: what a solver sees;
 //! * [`host`], [`instance`]: what the contract sees;
-//! * [`server`]: the gRPC service, health, reflection, shutdown;
-//! * [`scripted`]: a peer that answers from a script, for tests of masters.
+//! * [`server`]: the gRPC service, health, reflection, shutdown.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
@@ -15,7 +14,6 @@ pub mod host;
 pub mod inputs;
 pub mod instance;
 pub mod joint_load;
-pub mod scripted;
 pub mod server;
 pub mod setup;
 pub mod snapshot;

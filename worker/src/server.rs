@@ -4,7 +4,6 @@ mod address;
 mod service;
 
 use std::future::Future;
-use std::os::unix::fs::FileTypeExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
@@ -199,8 +198,8 @@ fn check_path(path: &Path) -> Result<(), ListenError> {
         let folder = folder.to_owned();
         return Err(ListenError::NoFolder { folder });
     }
-    match path.symlink_metadata() {
-        Ok(found) if !found.file_type().is_socket() => {
+    match address::is_socket(path) {
+        Some(false) => {
             let path = path.to_owned();
             Err(ListenError::NotASocket { path })
         }

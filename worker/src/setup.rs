@@ -134,13 +134,7 @@ impl Setup {
         solver: Option<v1::Solver>,
         t_start: f64,
     ) -> Result<Self, SetupError> {
-        if !t_start.is_finite() {
-            return Err(SetupError::OutOfRange {
-                field: "t_start".to_owned(),
-                value: t_start,
-                allowed: "it must be a finite number",
-            });
-        }
+        values::finite("t_start".to_owned(), t_start)?;
         complete("parameters", &mut parameters, &model.parameters)?;
         let mut setup = Self {
             parameters,
@@ -285,7 +279,8 @@ fn complete(
     Ok(())
 }
 
-fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
+/// Names for a message.
+pub(crate) fn names<'a>(names: impl Iterator<Item = &'a String>) -> String {
     let names: Vec<&str> = names.map(String::as_str).collect();
     if names.is_empty() {
         return "none".into();

@@ -84,16 +84,16 @@ impl Connector {
     }
 
     fn in_this_process(&self, subsystem: &Subsystem) -> Box<dyn Connection> {
-        let host = Arc::new(Host::new(models()));
+        let host = Host::new(models());
         match (subsystem.calls, self.place) {
             (Calls::Unary, _) => Box::new(Threaded::new(
                 Arc::new(UnaryTurns::new(host)),
                 "in process, unary calls",
             )),
             (Calls::Automatic, Place::Threads) => {
-                Box::new(Threaded::new(host, "in process, own thread"))
+                Box::new(Threaded::new(Arc::new(host), "in process, own thread"))
             }
-            (Calls::Automatic, _) => Box::new(Direct::new(host)),
+            (Calls::Automatic, _) => Box::new(Direct::new(Arc::new(host))),
         }
     }
 
@@ -112,20 +112,24 @@ impl Connector {
     }
 
     fn runtime(&self) -> Result<Arc<Runtime>, StartError> {
-        if let Some(runtime) = self.runtime.get() {
-            return Ok(Arc::clone(runtime));
-        }
-        let runtime = new_runtime()?;
-        Ok(Arc::clone(self.runtime.get_or_init(|| runtime)))
+        made(&self.runtime, || Ok(new_runtime()?)).cloned()
     }
 
     fn launcher(&self) -> Result<&Launcher, StartError> {
-        if let Some(launcher) = self.launcher.get() {
-            return Ok(launcher);
-        }
-        let launcher = Launcher::new()?;
-        Ok(self.launcher.get_or_init(|| launcher))
+        made(&self.launcher, || Ok(Launcher::new()?))
     }
+}
+
+/// What is made at its first use.
+fn made<T>(
+    cell: &OnceLock<T>,
+    make: impl FnOnce() -> Result<T, StartError>,
+) -> Result<&T, StartError> {
+    if let Some(made) = cell.get() {
+        return Ok(made);
+    }
+    let made = make()?;
+    Ok(cell.get_or_init(|| made))
 }
 
 /// The path of this program. If an update has replaced its file, the running one is found under `/proc` on Linux; the

@@ -18,10 +18,7 @@ pub fn on_signals() -> io::Result<Interrupt> {
         .build()?;
     let mut signals = {
         let _inside = runtime.enter();
-        [
-            signal(SignalKind::interrupt())?,
-            signal(SignalKind::terminate())?,
-        ]
+        signals()?
     };
     let interrupt = Interrupt::default();
     let requested = interrupt.clone();
@@ -39,7 +36,16 @@ pub fn on_signals() -> io::Result<Interrupt> {
     Ok(interrupt)
 }
 
-async fn any([first, second]: &mut [Signal; 2]) {
+/// Ctrl-C and SIGTERM from now on; inside a runtime.
+pub fn signals() -> io::Result<[Signal; 2]> {
+    Ok([
+        signal(SignalKind::interrupt())?,
+        signal(SignalKind::terminate())?,
+    ])
+}
+
+/// Waits for either.
+pub async fn any([first, second]: &mut [Signal; 2]) {
     tokio::select! {
         _ = first.recv() => {}
         _ = second.recv() => {}

@@ -63,15 +63,10 @@ pub fn simulate<R: Recorder>(
         .map_err(|error| stopped(scene.t_start, error))?;
     let mut story = Story::begin(scene);
     if let Some(mechanism) = simulation.mechanism() {
-        let taken = recorder.mechanism(mechanism);
-        taken.map_err(SimulateError::Record)?;
+        taken(recorder.mechanism(mechanism))?;
     }
-    recorder
-        .begin(simulation.row())
-        .map_err(SimulateError::Record)?;
-    recorder
-        .record(simulation.row())
-        .map_err(SimulateError::Record)?;
+    taken(recorder.begin(simulation.row()))?;
+    taken(recorder.record(simulation.row()))?;
     while simulation
         .macro_step()
         .map_err(|error| stopped(simulation.t(), error))?
@@ -82,7 +77,7 @@ pub fn simulate<R: Recorder>(
             if let Some((number, row)) = simulation.sample(place)
                 && number.is_multiple_of(every)
             {
-                recorder.record(row).map_err(SimulateError::Record)?;
+                taken(recorder.record(row))?;
             }
         }
         let number = match scene.output.interval {
@@ -90,9 +85,7 @@ pub fn simulate<R: Recorder>(
             None => Some(simulation.steps_done() as u64),
         };
         if is_finished || number.is_some_and(|number| number.is_multiple_of(every)) {
-            recorder
-                .record(simulation.row())
-                .map_err(SimulateError::Record)?;
+            taken(recorder.record(simulation.row()))?;
         }
         recorder.progress(simulation.t());
         if let Some(story) = &mut story {
@@ -107,4 +100,8 @@ pub fn simulate<R: Recorder>(
         story.end(&simulation);
     }
     Ok(simulation.statistics())
+}
+
+fn taken<E>(by_recorder: Result<(), E>) -> Result<(), SimulateError<E>> {
+    by_recorder.map_err(SimulateError::Record)
 }

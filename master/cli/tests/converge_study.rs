@@ -3,10 +3,10 @@
 
 use std::path::Path;
 
+use linchpin::files::write_table;
 use linchpin::study::StudyError;
 use linchpin::study::converge::{
-    CaseRuns, ConvergeRun, Outcome, Quantity, converge, least_squares, neighbouring, summary,
-    write_csv,
+    CaseRuns, Ending, Quantity, StudyRun, converge, least_squares, neighbouring, rows, summary,
 };
 use linchpin_master::scene::{self, Override};
 
@@ -63,7 +63,7 @@ fn orders_are_observed_and_a_diverging_run_is_a_row() {
         None
     );
     for run in &cases[1].runs {
-        assert!(matches!(&run.outcome, Outcome::Diverged(why) if why.contains("diverged at t =")));
+        assert!(matches!(&run.ending, Ending::Stopped(why) if why.contains("diverged at t =")));
     }
     // S1 Sect. 4.1.1 and an independent implementation: 5.3e-3 is the state error of index 1, 2e-5 that of index 2.
     let finest = cases[0].runs[2].error(Quantity::State).unwrap();
@@ -75,7 +75,7 @@ fn tables_have_a_row_for_each_run() {
     let cases = study(CASES, &[]).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("converge.csv");
-    write_csv(&cases, &path).unwrap();
+    write_table(&path, rows(&cases)).unwrap();
     let text = std::fs::read_to_string(&path).unwrap();
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows.len(), 13);
@@ -93,7 +93,7 @@ fn the_finest_run_is_as_good_a_reference() {
     let exact = study(CASES, &[steps]).unwrap();
     let finest = study(CASES, &[steps, ("converge.reference", "finest")]).unwrap();
     // Index 3 with k = 1 diverges, and with it its reference.
-    let diverged = |run: &ConvergeRun| matches!(run.outcome, Outcome::Diverged(_));
+    let diverged = |run: &StudyRun| matches!(run.ending, Ending::Stopped(_));
     assert!(finest[1].runs.iter().all(diverged));
     for case in [0, 2] {
         for number in [0, 1] {

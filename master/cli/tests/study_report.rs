@@ -128,7 +128,7 @@ fn tables_have_every_run_and_what_it_cost() {
     assert!(scene["settings"][2]["runs"][0]["error"].is_null());
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("report.csv");
-    linchpin::study::report::write_csv(&found, &path).unwrap();
+    linchpin::files::write_table(&path, found.rows()).unwrap();
     let rows = std::fs::read_to_string(&path).unwrap().lines().count();
     assert_eq!(rows, 1 + 3 * 3 + 9 + 4 * 2 + 9);
     // k = 1 has order 4, so a tenth of the error costs the fourth root of ten.

@@ -17,7 +17,6 @@ use super::motion::{Jet, MarkerChange, Motion};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AtPoint {
     law: JointLaw,
-    direction: Vector3<f64>,
 }
 
 impl AtPoint {
@@ -26,7 +25,6 @@ impl AtPoint {
         let law = Law::AtPoint { direction };
         Self {
             law: JointLaw { law, points },
-            direction,
         }
     }
 }
@@ -37,10 +35,7 @@ impl Condition for AtPoint {
     }
 
     fn factors(&self, motion: &Motion) -> [Jet; 2] {
-        [
-            distance(&self.law.points, motion),
-            Jet::constant(self.direction),
-        ]
+        self.law.factors(motion)
     }
 
     fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
@@ -51,12 +46,7 @@ impl Condition for AtPoint {
     }
 }
 
-/// `p_a - p_b` with its derivatives.
-pub(super) fn distance(points: &[Vector3<f64>; 2], [a, b]: &Motion) -> Jet {
-    a.point(&points[0]) - b.point(&points[1])
-}
-
-/// Change of [`distance`] under a small change of the motion at one end.
+/// Change of `p_a - p_b` under a small change of the motion at one end.
 pub(super) fn distance_change(
     points: &[Vector3<f64>; 2],
     motion: &Motion,

@@ -3,7 +3,7 @@
 use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
-use super::atpoint::{distance, distance_change};
+use super::atpoint::distance_change;
 use super::condition::Condition;
 use super::motion::{Jet, MarkerChange, Motion};
 
@@ -36,10 +36,7 @@ impl Condition for InPlane {
     }
 
     fn factors(&self, motion: &Motion) -> [Jet; 2] {
-        [
-            distance(&self.law.points, motion),
-            motion[1].carried(&self.normal),
-        ]
+        self.law.factors(motion)
     }
 
     fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {

@@ -1,6 +1,6 @@
 //! Motion of a joint's markers, and vectors that they carry, with their time derivatives.
 
-use linchpin_proto::joint_load::Pose;
+use linchpin_proto::joint_load::{Marker, Pose};
 use nalgebra::Vector3;
 
 use super::level::Level;
@@ -59,16 +59,34 @@ impl Default for MarkerMotion {
     }
 }
 
-impl MarkerMotion {
-    /// A vector `s` fixed in the marker's axes: `T s`, `omega x T s`, `alpha x T s + omega x (omega x T s)`.
-    pub fn carried(&self, s: &Vector3<f64>) -> Jet {
-        let carried = self.pose.rotation * s;
+impl Marker for MarkerMotion {
+    type Vector = Jet;
+
+    fn constant(vector: Vector3<f64>) -> Jet {
+        Jet::constant(vector)
+    }
+
+    /// `T s`, `omega x T s`, `alpha x T s + omega x (omega x T s)`.
+    fn carried(&self, s: &Vector3<f64>) -> Jet {
+        let carried = self.pose.carried(s);
         let rate = self.omega.cross(&carried);
         let second = self.alpha.cross(&carried) + self.omega.cross(&rate);
         Jet([carried, rate, second])
     }
 
-    /// Change of [`MarkerMotion::carried`] under a small change of the motion.
+    /// `r + T s` and its derivatives.
+    fn point(&self, s: &Vector3<f64>) -> Jet {
+        let Jet([carried, rate, second]) = self.carried(s);
+        Jet([
+            self.pose.position + carried,
+            self.velocity + rate,
+            self.acceleration + second,
+        ])
+    }
+}
+
+impl MarkerMotion {
+    /// Change of [`Marker::carried`] under a small change of the motion.
     pub fn carried_change(&self, s: &Vector3<f64>, change: &MarkerChange) -> Jet {
         let Jet([carried, rate, _]) = self.carried(s);
         let moved = change.rotation.cross(&carried);
@@ -80,17 +98,7 @@ impl MarkerMotion {
         Jet([moved, moved_rate, moved_second])
     }
 
-    /// The point `s` of the marker's axes: `r + T s` and its derivatives.
-    pub fn point(&self, s: &Vector3<f64>) -> Jet {
-        let Jet([carried, rate, second]) = self.carried(s);
-        Jet([
-            self.pose.position + carried,
-            self.velocity + rate,
-            self.acceleration + second,
-        ])
-    }
-
-    /// Change of [`MarkerMotion::point`] under a small change of the motion.
+    /// Change of [`Marker::point`] under a small change of the motion.
     pub fn point_change(&self, s: &Vector3<f64>, change: &MarkerChange) -> Jet {
         let Jet([carried, rate, second]) = self.carried_change(s, change);
         Jet([

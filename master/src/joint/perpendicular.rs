@@ -38,8 +38,8 @@ impl Condition for Perpendicular {
         Some(&self.law)
     }
 
-    fn factors(&self, [a, b]: &Motion) -> [Jet; 2] {
-        [a.carried(&self.axes[0]), b.carried(&self.axes[1])]
+    fn factors(&self, motion: &Motion) -> [Jet; 2] {
+        self.law.factors(motion)
     }
 
     fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {

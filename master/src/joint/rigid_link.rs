@@ -1,6 +1,6 @@
 //! Two masses on one axis that keep together.
 
-use linchpin_proto::joint_load::{End, JointLaw};
+use linchpin_proto::joint_load::{End, JointLaw, Marker};
 use nalgebra::Vector3;
 
 use super::condition::Condition;

@@ -4,7 +4,6 @@ use linchpin_proto::v1;
 
 use crate::mechanics::describe::{at_zero, input, needed, output, state};
 use crate::mechanics::markers::PLANAR;
-use crate::mechanics::solvers;
 
 /// Place of the outputs of the pin, behind those of the shaft.
 pub const PIN: usize = PLANAR.outputs_per_marker();
@@ -25,28 +24,21 @@ const SHAFT_MARKER: &str = "shaft";
 const PIN_MARKER: &str = "pin";
 
 pub fn model() -> v1::Model {
-    let markers = [SHAFT_MARKER, PIN_MARKER];
+    let base = PLANAR.model([SHAFT_MARKER, PIN_MARKER], own_outputs());
     let voltage = input("voltage", "V", "voltage at the armature");
-    let loads = markers.into_iter().flat_map(|marker| PLANAR.loads(marker));
-    let motions = markers
-        .into_iter()
-        .flat_map(|marker| PLANAR.outputs(marker));
     v1::Model {
         name: "dc-motor".to_owned(),
         description:
             "Direct-current motor with a constant field; its rotor is a balanced crank in the plane"
                 .to_owned(),
-        inputs: std::iter::once(voltage).chain(loads).collect(),
-        outputs: motions.chain(own_outputs()).collect(),
+        inputs: std::iter::once(voltage).chain(base.inputs).collect(),
         parameters: parameters(),
-        markers: markers.map(|marker| PLANAR.marker(marker)).into(),
-        solvers: solvers::descriptions(),
         states: vec![
             state("angle", "angle0"),
             state("rate", "rate0"),
             state("current", "current0"),
         ],
-        capabilities: Some(solvers::capabilities()),
+        ..base
     }
 }
 

@@ -1,8 +1,9 @@
-//! Names of what belongs to a marker: `tip_x`, `tip_vx`, `tip_fx`, ...
+//! What belongs to a marker: `tip_x`, `tip_vx`, `tip_fx`, ..., and models with markers.
 
 use linchpin_proto::v1;
 
 use super::describe::{input, output};
+use super::solvers;
 
 /// One component: the end of its name, its unit, what it is.
 type Component = (&'static str, &'static str, &'static str);
@@ -123,6 +124,25 @@ impl Form {
     /// The inputs of a marker: its load.
     pub fn loads(&self, marker: &str) -> impl Iterator<Item = v1::Variable> {
         variables(self.load.to_vec(), marker, input)
+    }
+
+    /// A model with these markers and its own outputs behind theirs, as far as they and the solvers tell.
+    pub fn model(
+        &self,
+        markers: [&str; 2],
+        own_outputs: impl IntoIterator<Item = v1::Variable>,
+    ) -> v1::Model {
+        let outputs = markers.into_iter().flat_map(|marker| self.outputs(marker));
+        v1::Model {
+            inputs: { markers.into_iter() }
+                .flat_map(|marker| self.loads(marker))
+                .collect(),
+            outputs: outputs.chain(own_outputs).collect(),
+            markers: markers.map(|marker| self.marker(marker)).into(),
+            solvers: solvers::descriptions(),
+            capabilities: Some(solvers::capabilities()),
+            ..v1::Model::default()
+        }
     }
 
     /// The marker itself.

@@ -5,6 +5,7 @@
 //! sets no limit to the turn within one. `q' = q (0, omega) / 2` keeps its length; an integrator keeps it to its own
 //! error, so the length is brought back to 1 at every macro point.
 
+use linchpin_proto::joint_load::Wrench;
 use nalgebra::{Matrix3, Matrix3x4, Matrix4, Matrix4x3, Quaternion, Vector3, Vector4};
 
 /// `q v q*`: components in space of a vector given in the body's axes.
@@ -86,13 +87,6 @@ pub struct BodyAcceleration {
 /// A point fixed in a body, by its place in the body's axes relative to the centre of mass (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BodyPoint(pub Vector3<f64>);
-
-/// Force (N) and moment about the point (N m), in space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wrench {
-    pub force: Vector3<f64>,
-    pub moment: Vector3<f64>,
-}
 
 impl BodyPoint {
     fn position(&self, body: &BodyMotion) -> Vector3<f64> {

@@ -87,7 +87,7 @@ impl Condition {
         Row {
             bodies: self.bodies,
             loads,
-            residual: self.value(&poses) + shift.value,
+            residual: self.law.residual(&poses) + shift.value,
             drift: shift.rate + spin.dot(&loads[0].moment),
             bias: curvature + shift.acceleration + spin_rate.dot(&loads[0].moment),
         }
@@ -121,16 +121,6 @@ impl Condition {
             }
         }
         ends
-    }
-
-    fn value(&self, [a, b]: &[Pose; 2]) -> f64 {
-        let [point_a, point_b] = self.law.points;
-        let apart = || a.position + a.rotation * point_a - b.position - b.rotation * point_b;
-        match self.law.law {
-            Law::AtPoint { direction } => apart().dot(&direction),
-            Law::InPlane { normal } => apart().dot(&(b.rotation * normal)),
-            Law::Perpendicular { axes } => (a.rotation * axes[0]).dot(&(b.rotation * axes[1])),
-        }
     }
 
     /// Units of the condition and of its rate.

@@ -4,7 +4,6 @@ use linchpin_proto::v1;
 
 use crate::mechanics::describe::{at_zero, gravity, needed, output, state};
 use crate::mechanics::markers::PLANAR;
-use crate::mechanics::solvers;
 
 /// Outputs of one marker.
 pub const OUTPUTS_PER_MARKER: usize = PLANAR.outputs_per_marker();
@@ -24,17 +23,9 @@ pub fn model() -> v1::Model {
         description:
             "Rigid link in the plane on a hinge in the ground, with a torsional spring and damper"
                 .to_owned(),
-        inputs: PLANAR.loads(TIP).chain(PLANAR.loads(CENTRE)).collect(),
-        outputs: PLANAR
-            .outputs(TIP)
-            .chain(PLANAR.outputs(CENTRE))
-            .chain(own_outputs())
-            .collect(),
         parameters: parameters(),
-        markers: vec![PLANAR.marker(TIP), PLANAR.marker(CENTRE)],
-        solvers: solvers::descriptions(),
         states: vec![state("angle", "angle0"), state("rate", "rate0")],
-        capabilities: Some(solvers::capabilities()),
+        ..PLANAR.model([TIP, CENTRE], own_outputs())
     }
 }
 

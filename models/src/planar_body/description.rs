@@ -4,7 +4,6 @@ use linchpin_proto::v1;
 
 use crate::mechanics::describe::{at_zero, gravity, needed, output, state};
 use crate::mechanics::markers::PLANAR;
-use crate::mechanics::solvers;
 
 /// Outputs of one marker.
 pub const OUTPUTS_PER_MARKER: usize = PLANAR.outputs_per_marker();
@@ -20,15 +19,7 @@ pub fn model() -> v1::Model {
     v1::Model {
         name: "planar-body".to_owned(),
         description: "Free rigid link in the plane with a marker at each end".to_owned(),
-        inputs: PLANAR.loads(START).chain(PLANAR.loads(END)).collect(),
-        outputs: PLANAR
-            .outputs(START)
-            .chain(PLANAR.outputs(END))
-            .chain(own_outputs())
-            .collect(),
         parameters: parameters(),
-        markers: vec![PLANAR.marker(START), PLANAR.marker(END)],
-        solvers: solvers::descriptions(),
         states: vec![
             state("start_x", "x0"),
             state("start_y", "y0"),
@@ -37,7 +28,7 @@ pub fn model() -> v1::Model {
             state("start_vy", "vy0"),
             state("start_rate", "rate0"),
         ],
-        capabilities: Some(solvers::capabilities()),
+        ..PLANAR.model([START, END], own_outputs())
     }
 }
 

@@ -4,7 +4,6 @@ use linchpin_proto::v1;
 
 use crate::mechanics::describe::{at_zero, gravity, needed, output};
 use crate::mechanics::markers::SPATIAL;
-use crate::mechanics::solvers;
 
 /// Outputs of one marker.
 pub const OUTPUTS_PER_MARKER: usize = SPATIAL.outputs_per_marker();
@@ -24,17 +23,8 @@ pub fn model() -> v1::Model {
     v1::Model {
         name: "spatial-body".to_owned(),
         description: "Free rigid body in space with two markers".to_owned(),
-        inputs: SPATIAL.loads(START).chain(SPATIAL.loads(END)).collect(),
-        outputs: SPATIAL
-            .outputs(START)
-            .chain(SPATIAL.outputs(END))
-            .chain(own_outputs())
-            .collect(),
         parameters: parameters(),
-        markers: vec![SPATIAL.marker(START), SPATIAL.marker(END)],
-        solvers: solvers::descriptions(),
-        states: vec![],
-        capabilities: Some(solvers::capabilities()),
+        ..SPATIAL.model([START, END], own_outputs())
     }
 }
 

@@ -1,12 +1,13 @@
 //! The equation of motion.
 
+use linchpin_proto::joint_load::Wrench;
 use nalgebra::{DMatrix, Matrix3, Quaternion, Vector3};
 
 use super::description::{ENERGY, OMEGA, OUTPUTS_PER_MARKER, POSITION, VELOCITY};
 use super::parameters::BodyParameters;
 use crate::mechanics::equation::EquationOfMotion;
 use crate::mechanics::spatial::{
-    BodyAcceleration, BodyMotion, BodyPoint, Wrench, attitude_rate, attitude_rate_by_attitude,
+    BodyAcceleration, BodyMotion, BodyPoint, attitude_rate, attitude_rate_by_attitude,
     attitude_rate_by_omega, real_first,
 };
 

@@ -4,7 +4,7 @@
 
 use std::collections::BTreeMap;
 
-use linchpin_models::nonsmooth::SliderCrank;
+use linchpin_models::nonsmooth::SLIDER_CRANK;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1::{self, value::Kind};
 use linchpin_worker::{Inputs, Interval, Model, Setup, Subsystem};
@@ -46,12 +46,12 @@ impl Moving {
                 ("step".to_owned(), number(2e-7)),
             ]),
         };
-        let description = SliderCrank.describe_with(&parameters).unwrap();
+        let description = SLIDER_CRANK.describe_with(&parameters).unwrap();
         let setup = Setup::from_request(&description, parameters, Some(solver), 0.0).unwrap();
         let mut inputs = Inputs::constant(&vec![0.0; description.inputs.len()]);
         inputs.replace(0, Polynomial::constant(0.7));
         let mut moving = Self {
-            run: SliderCrank.initialize(&setup).unwrap(),
+            run: SLIDER_CRANK.initialize(&setup).unwrap(),
             description,
             inputs,
             t: 0.0,

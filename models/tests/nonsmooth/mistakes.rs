@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use linchpin_models::nonsmooth::{Block, BouncingBall, MassChain, SliderCrank, Woodpecker};
+use linchpin_models::nonsmooth::{BLOCK, BOUNCING_BALL, MASS_CHAIN, SLIDER_CRANK, WOODPECKER};
 use linchpin_proto::v1::{self, value::Kind};
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Model, Setup};
@@ -109,53 +109,53 @@ fn parameters_of_the_slider_crank() {
         ),
     ];
     for (given, parts) in cases {
-        assert_says(&mistake(&SliderCrank, given, "bathe", &[]), parts);
+        assert_says(&mistake(&SLIDER_CRANK, given, "bathe", &[]), parts);
     }
 }
 
 #[test]
 fn parameters_of_ball_block_and_woodpecker() {
     let cases: [(&dyn Model, &str, f64, &[&str]); 20] = [
-        (&BouncingBall, "m", 0.0, &["greater than 0"]),
-        (&BouncingBall, "height0", -0.1, &["0 or greater"]),
-        (&BouncingBall, "restitution", 1.1, &["0 to 1"]),
-        (&BouncingBall, "speed0", f64::INFINITY, &["finite"]),
-        (&BouncingBall, "radius", -1.0, &["0 or greater"]),
-        (&Block, "half_width", 0.0, &["greater than 0"]),
-        (&Block, "inertia", 0.0, &["greater than 0"]),
-        (&Block, "slope", 1.6, &["between -pi/2 and pi/2"]),
-        (&Block, "friction", -0.1, &["0 or greater"]),
-        (&Block, "tangential_restitution", -0.1, &["0 to 1"]),
-        (&Block, "gap0", -1e-9, &["0 or greater"]),
-        (&Block, "tilt0", f64::NAN, &["finite"]),
+        (&BOUNCING_BALL, "m", 0.0, &["greater than 0"]),
+        (&BOUNCING_BALL, "height0", -0.1, &["0 or greater"]),
+        (&BOUNCING_BALL, "restitution", 1.1, &["0 to 1"]),
+        (&BOUNCING_BALL, "speed0", f64::INFINITY, &["finite"]),
+        (&BOUNCING_BALL, "radius", -1.0, &["0 or greater"]),
+        (&BLOCK, "half_width", 0.0, &["greater than 0"]),
+        (&BLOCK, "inertia", 0.0, &["greater than 0"]),
+        (&BLOCK, "slope", 1.6, &["between -pi/2 and pi/2"]),
+        (&BLOCK, "friction", -0.1, &["0 or greater"]),
+        (&BLOCK, "tangential_restitution", -0.1, &["0 to 1"]),
+        (&BLOCK, "gap0", -1e-9, &["0 or greater"]),
+        (&BLOCK, "tilt0", f64::NAN, &["finite"]),
         (
-            &Block,
+            &BLOCK,
             "plane_to",
             -1.0,
             &["plane_from", "would end at -1 m"],
         ),
-        (&Block, "half_hight", 1.0, &["unknown", "half_height"]),
+        (&BLOCK, "half_hight", 1.0, &["unknown", "half_height"]),
         (
-            &Woodpecker,
+            &WOODPECKER,
             "sleeve_radius",
             2e-3,
             &["greater than pole_radius"],
         ),
-        (&Woodpecker, "m_bird", -1.0, &["greater than 0"]),
+        (&WOODPECKER, "m_bird", -1.0, &["greater than 0"]),
         (
-            &Woodpecker,
+            &WOODPECKER,
             "phi_m0",
             -0.2,
             &["the lower edge", "5.600e-4 m inside the pole"],
         ),
         (
-            &Woodpecker,
+            &WOODPECKER,
             "phi_m0",
             0.2,
             &["the upper edge", "inside the pole"],
         ),
-        (&Woodpecker, "phi_s0", 0.2, &["the beak", "inside the pole"]),
-        (&Woodpecker, "pole_bottom", 0.1, &["below pole_top"]),
+        (&WOODPECKER, "phi_s0", 0.2, &["the beak", "inside the pole"]),
+        (&WOODPECKER, "pole_bottom", 0.1, &["below pole_top"]),
     ];
     for (model, name, value, parts) in cases {
         let message = mistake(model, &[(name, Number(value))], "bathe", &[]);
@@ -228,6 +228,6 @@ fn solvers_and_their_options() {
         ),
     ];
     for (solver, options, parts) in cases {
-        assert_says(&mistake(&MassChain, &[], solver, options), parts);
+        assert_says(&mistake(&MASS_CHAIN, &[], solver, options), parts);
     }
 }

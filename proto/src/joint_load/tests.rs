@@ -38,6 +38,13 @@ fn condition(law: &JointLaw, [a, b]: &[Pose; 2]) -> f64 {
     }
 }
 
+#[test]
+fn residuals_are_those_of_s1() {
+    for law in laws() {
+        assert_eq!(law.residual(&poses()), condition(&law, &poses()));
+    }
+}
+
 fn moved(poses: &[Pose; 2], by: &[Displacement; 2], scale: f64) -> [Pose; 2] {
     std::array::from_fn(|end| Pose {
         position: poses[end].position + scale * by[end].position,

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use linchpin::plot::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, convergence};
+use linchpin::plot::{Chart, Curve, CurvePanel, CurvePlot};
 
 use crate::macro_steps::Cost;
 use crate::solver::Solution;
@@ -14,15 +14,14 @@ pub fn draw(costs: &[Vec<Cost>; 2], solutions: &[Solution]) {
         let points = chains.clone().map(|one| (one.bodies as f64, of(one)));
         points.collect()
     };
-    let solver = ConvergencePanel {
+    let curves = vec![
+        curve("dense", elimination(|one| one.dense)),
+        curve("sparse", elimination(|one| one.sparse)),
+    ];
+    let solver = CurvePanel {
         title: "one solution of the coupling system".into(),
-        x_label: "links".into(),
-        y_label: "time in µs".into(),
-        curves: vec![
-            curve("dense", elimination(|one| one.dense)),
-            curve("sparse", elimination(|one| one.sparse)),
-        ],
         reference_slopes: vec![1.0, 3.0],
+        ..CurvePanel::of_errors("links", "time in µs", curves)
     };
     let titles = [
         "macro step, workers in process",
@@ -32,34 +31,33 @@ pub fn draw(costs: &[Vec<Cost>; 2], solutions: &[Solution]) {
         .into_iter()
         .zip(costs)
         .map(|(title, costs)| panel(title, costs));
-    let plot = ConvergencePlot {
+    let plot = CurvePlot {
         panels: steps.chain([solver]).collect(),
     };
     let stem = Path::new(env!("CARGO_MANIFEST_DIR")).join("../target/chain-cost");
-    convergence(&plot, &stem).unwrap();
+    plot.write(&stem).unwrap();
     println!("\n{}.svg", stem.display());
 }
 
-fn panel(title: &str, costs: &[Cost]) -> ConvergencePanel {
+fn panel(title: &str, costs: &[Cost]) -> CurvePanel {
     let points = |of: fn(&Cost) -> f64| {
         let points = costs.iter().map(|cost| (cost.links as f64, of(cost)));
         points.collect()
     };
-    ConvergencePanel {
+    let curves = vec![
+        curve("whole", points(|cost| cost.whole)),
+        curve("master", points(|cost| cost.master)),
+        curve("assemble and solve", points(|cost| cost.solving)),
+    ];
+    CurvePanel {
         title: title.into(),
-        x_label: "links".into(),
-        y_label: "time in µs".into(),
-        curves: vec![
-            curve("whole", points(|cost| cost.whole)),
-            curve("master", points(|cost| cost.master)),
-            curve("assemble and solve", points(|cost| cost.solving)),
-        ],
         reference_slopes: vec![1.0],
+        ..CurvePanel::of_errors("links", "time in µs", curves)
     }
 }
 
-fn curve(name: &str, points: Vec<(f64, f64)>) -> ConvergenceCurve {
-    ConvergenceCurve {
+fn curve(name: &str, points: Vec<(f64, f64)>) -> Curve {
+    Curve {
         name: name.into(),
         points,
     }

@@ -7,11 +7,11 @@ use std::sync::mpsc::channel;
 use linchpin_models::models;
 use linchpin_proto::contract::Contract;
 use linchpin_worker::Host;
-use linchpin_worker::scripted::Scripted;
 use linchpin_worker::server::{Address, Reach, Server};
 use tokio::sync::oneshot;
 
 use super::Workshop;
+use crate::scripted::Scripted;
 
 /// Serves a contract on a Unix socket until it is dropped.
 pub struct Peer {
@@ -22,7 +22,7 @@ pub struct Peer {
 impl Peer {
     /// The built-in models behind a script.
     pub fn scripted(workshop: &Workshop, script: impl FnOnce(Scripted) -> Scripted) -> Self {
-        let contract = Arc::new(script(Scripted::new(Box::new(Host::new(models())))));
+        let contract = Arc::new(script(Scripted::new(Arc::new(Host::new(models())))));
         Self::serve(workshop, contract)
     }
 

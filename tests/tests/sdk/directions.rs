@@ -1,6 +1,5 @@
 //! Directional derivatives.
 
-use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
 
 use crate::both_ways;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use linchpin_master::connection::UnaryTurns;
 use linchpin_proto::v1;
+use linchpin_tests::scripted::Scripted;
 
 use crate::both_ways;
 use crate::driver::{Driver, assert_misuse, constant, oscillator, tank, through};
@@ -62,7 +63,7 @@ fn exchanges_equal_unary_turns_bit_by_bit(serve: Serve) {
     for solver in ["exact", "radau5", "rk4"] {
         let peer = serve(host());
         let mut fused = Driver::initialize(peer.calls(), &oscillator(5, solver));
-        let unary = Arc::new(UnaryTurns::new(peer.calls()));
+        let unary = Arc::new(UnaryTurns::new(Scripted::new(peer.calls())));
         let mut unary = Driver::initialize(unary, &oscillator(6, solver));
         for (advance, predict) in turns() {
             let mut answers = [&mut fused, &mut unary]

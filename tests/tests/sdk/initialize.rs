@@ -1,6 +1,5 @@
 //! Describe and Initialize.
 
-use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, ProtocolVersion, value::Kind};
 use linchpin_proto::version::PROTOCOL;
 

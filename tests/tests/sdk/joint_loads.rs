@@ -1,6 +1,5 @@
 //! Joint loads: what a subsystem is given, step by step.
 
-use linchpin_proto::contract::Contract;
 use linchpin_proto::joint_load::{End, JointLaw, Law};
 use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;

@@ -1,6 +1,5 @@
 //! Perturbed steps repeat the internal steps of the step that they are compared with, and of no other.
 
-use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
 
 use crate::both_ways;

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::contract::CallError;
 use linchpin_proto::v1::{self, Failure, ProtocolVersion};
-use linchpin_worker::scripted::{Act, Scripted};
+use linchpin_tests::scripted::{Act, Scripted};
 
 use crate::both_ways;
 use crate::driver::{Driver, constant, tank};
@@ -19,7 +19,7 @@ both_ways!(
 );
 
 fn scripted() -> Scripted {
-    Scripted::new(Box::new(host()))
+    Scripted::new(host())
 }
 
 fn look() -> Option<v1::Predict> {

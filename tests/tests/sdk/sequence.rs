@@ -1,6 +1,5 @@
 //! Sequence numbers: a lost answer never steps twice.
 
-use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
 
 use crate::both_ways;

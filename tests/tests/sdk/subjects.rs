@@ -5,6 +5,7 @@ use std::sync::Arc;
 use linchpin_master::connection::UnaryTurns;
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, value::Kind};
+use linchpin_tests::scripted::Scripted;
 
 use crate::driver::{Driver, number, oscillator, tank, through};
 use crate::peer::Peer;
@@ -77,7 +78,10 @@ impl Route {
     pub fn drive(self, peer: &Peer, request: &v1::InitializeRequest, number: u64) -> Driver {
         let (calls, first): (Arc<dyn Contract>, u64) = match self {
             Self::Exchange => (peer.calls(), 100),
-            Self::Unary => (Arc::new(UnaryTurns::new(peer.calls())), 200),
+            Self::Unary => {
+                let calls = Scripted::new(peer.calls());
+                (Arc::new(UnaryTurns::new(calls)), 200)
+            }
         };
         let request = v1::InitializeRequest {
             instance: first + number,

@@ -9,9 +9,8 @@ use linchpin_master::results::Statistics;
 use linchpin_master::scene::{self, Scene};
 use linchpin_master::setup::Options;
 use linchpin_models::oscillator::Oscillator;
-use linchpin_proto::contract::Contract;
 use linchpin_proto::v1;
-use linchpin_worker::scripted::Scripted;
+use linchpin_tests::scripted::Scripted;
 use linchpin_worker::setup::SetupError;
 use linchpin_worker::{Host, Inputs, Interval, Model, Setup, Snapshot, StepFailure, Subsystem};
 
@@ -131,7 +130,7 @@ pub fn run_scripted(
 ) -> Result<Ended, RunError> {
     // Unary calls below have numbers of their own, so they miss none that the script has answered.
     let calls = || UnaryTurns::new(host(|_, _| Fate::Done));
-    let peer = || script(Scripted::new(Box::new(calls())));
+    let peer = || script(Scripted::new(Arc::new(calls())));
     run_with(scene, &Options::default(), &|| {
         Box::new(Direct::new(Arc::new(peer())))
     })
@@ -143,10 +142,9 @@ fn host(judge: Judge) -> Host {
 
 impl Way {
     fn to(self, host: Host) -> Box<dyn Connection> {
-        let host: Arc<dyn Contract> = Arc::new(host);
         match self {
-            Self::Direct => Box::new(Direct::new(host)),
-            Self::Threads => Box::new(Threaded::new(host, "thread")),
+            Self::Direct => Box::new(Direct::new(Arc::new(host))),
+            Self::Threads => Box::new(Threaded::new(Arc::new(host), "thread")),
             Self::Unary => Box::new(Threaded::new(Arc::new(UnaryTurns::new(host)), "unary")),
         }
     }

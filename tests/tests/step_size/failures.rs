@@ -6,7 +6,7 @@ use linchpin_master::setup::Options;
 use linchpin_proto::v1::Failure;
 use linchpin_tests::errors::closed_form;
 use linchpin_tests::scenes::{oscillator, oscillator_with};
-use linchpin_worker::scripted::{Act, Scripted};
+use linchpin_tests::scripted::{Act, Scripted};
 use linchpin_worker::{Inputs, Interval};
 
 use crate::brittle::{Ended, Fate, Judge, Way, run_brittle, run_scripted};

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use linchpin_proto::v1::Failure;
 use linchpin_tests::process::{Outcome, Peer, Workshop};
-use linchpin_worker::scripted::{Act, Scripted};
+use linchpin_tests::scripted::{Act, Scripted};
 
 use crate::{exists, rows, run, workshop};
 

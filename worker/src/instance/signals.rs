@@ -3,7 +3,7 @@
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1::{self, Failure};
 
-use crate::Inputs;
+use crate::{Inputs, setup};
 
 /// The driven inputs of an instance, the defaults of the others, and the inputs of joint loads.
 pub(crate) struct Signals {
@@ -183,22 +183,12 @@ pub(crate) fn find(
     field: &str,
 ) -> Result<Vec<usize>, Failure> {
     let place = |name: &String| {
-        known
-            .iter()
-            .position(|variable| &variable.name == name)
-            .ok_or_else(|| {
-                let known: Vec<&str> = known
-                    .iter()
-                    .map(|variable| variable.name.as_str())
-                    .collect();
-                Failure::misuse(
-                    field,
-                    format!(
-                        "no variable \"{name}\" among the model's: {}",
-                        known.join(", ")
-                    ),
-                )
-            })
+        let place = known.iter().position(|own| own.name == *name);
+        place.ok_or_else(|| {
+            let known = setup::names(known.iter().map(|own| &own.name));
+            let message = format!("no variable \"{name}\" among the model's: {known}");
+            Failure::misuse(field, message)
+        })
     };
     names.iter().map(place).collect()
 }

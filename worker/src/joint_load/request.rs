@@ -1,10 +1,11 @@
 //! The joint loads of a request.
 
-use linchpin_proto::joint_load::{JointLaw, JointLoadError, Law, Reads};
+use linchpin_proto::joint_load::{Acts, JointLaw, JointLoadError, Reads};
 use linchpin_proto::v1::{self, Failure};
 
 use super::{JointLoad, LoadedMarker, Orientation, Partner, Space};
 use crate::instance::{Signals, find};
+use crate::setup::names;
 
 /// The joint loads that `request` asks of `model`.
 ///
@@ -57,7 +58,7 @@ impl Reader<'_> {
             JointLaw::from_message(self.message).map_err(|error| self.no_law(error))?;
         let (own, partner) = (law.load_reads(end, end), law.load_reads(end, end.other()));
         let marker = self.marker()?;
-        self.check_marker(&marker, &law, own)?;
+        self.check_marker(&marker, law.acts_by(end), own)?;
         if marker.space == Space::Planar {
             self.check_plane()?;
         }
@@ -77,9 +78,7 @@ impl Reader<'_> {
     fn marker(&self) -> Result<LoadedMarker, Failure> {
         let name = &self.message.marker;
         let Some(marker) = self.model.markers.iter().find(|own| own.name == *name) else {
-            let known = self.model.markers.iter().map(|own| own.name.as_str());
-            let known: Vec<&str> = known.collect();
-            let known = known.join(", ");
+            let known = names(self.model.markers.iter().map(|own| &own.name));
             return Err(self.misuse(
                 "marker",
                 format!("the model has no marker \"{name}\"; it has: {known}"),
@@ -104,23 +103,16 @@ impl Reader<'_> {
         })
     }
 
-    /// The marker must offer the own pose that the load depends on, and take the load. A load has a moment if and only
-    /// if it depends on the own orientation.
-    fn check_marker(
-        &self,
-        marker: &LoadedMarker,
-        law: &JointLaw,
-        own: Reads,
-    ) -> Result<(), Failure> {
+    /// The marker must offer the own pose that the load depends on, and take the load.
+    fn check_marker(&self, marker: &LoadedMarker, acts: Acts, own: Reads) -> Result<(), Failure> {
         let (points, orientations) = marker.space.components();
         let (forces, moments) = marker.space.load_components();
-        let has_force = !matches!(law.law, Law::Perpendicular { .. });
         let (position, load) = (marker.position.len(), marker.load.len());
         let lists = [
             (own.position, "position", position, points),
             (own.rotation, "position", position, orientations),
-            (has_force, "load", load, forces),
-            (own.rotation, "load", load, moments),
+            (acts.force, "load", load, forces),
+            (acts.moment, "load", load, moments),
         ];
         for (is_needed, list, length, needed) in lists {
             if is_needed && length < needed {

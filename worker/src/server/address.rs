@@ -3,6 +3,7 @@
 use std::fmt;
 use std::io::ErrorKind;
 use std::net::SocketAddr;
+use std::os::unix::fs::FileTypeExt;
 use std::os::unix::net::UnixStream;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -57,12 +58,15 @@ impl fmt::Display for Address {
     }
 }
 
+/// Whether a file is a socket; `None` if there is none.
+pub(super) fn is_socket(path: &Path) -> Option<bool> {
+    let found = path.symlink_metadata().ok()?;
+    Some(found.file_type().is_socket())
+}
+
 /// Removes the socket file of a worker that is gone; the file of a living one stays and makes `bind` fail.
 pub(super) fn clear_stale(path: &Path) -> std::io::Result<()> {
-    let is_socket = path
-        .symlink_metadata()
-        .is_ok_and(|metadata| std::os::unix::fs::FileTypeExt::is_socket(&metadata.file_type()));
-    if !is_socket {
+    if is_socket(path) != Some(true) {
         return Ok(());
     }
     match UnixStream::connect(path) {

@@ -35,7 +35,7 @@ impl<'a> Values<'a> {
     /// [`SetupError`] if it is missing, of another type or not finite.
     pub fn number(&self, name: &str) -> Result<f64, SetupError> {
         match self.kind(name)? {
-            Some(Kind::Number(value)) => self.finite(self.field(name), *value),
+            Some(Kind::Number(value)) => finite(self.field(name), *value),
             _ => Err(self.wrong_type(name, "a number")),
         }
     }
@@ -97,7 +97,7 @@ impl<'a> Values<'a> {
             return Err(self.wrong_type(name, "a list of numbers"));
         };
         for (place, &value) in list.values.iter().enumerate() {
-            self.finite(format!("{}[{place}]", self.field(name)), value)?;
+            finite(format!("{}[{place}]", self.field(name)), value)?;
         }
         Ok(&list.values)
     }
@@ -110,17 +110,6 @@ impl<'a> Values<'a> {
         Ok(value.kind.as_ref())
     }
 
-    fn finite(&self, field: String, value: f64) -> Result<f64, SetupError> {
-        if value.is_finite() {
-            return Ok(value);
-        }
-        Err(SetupError::OutOfRange {
-            field,
-            value,
-            allowed: "it must be a finite number",
-        })
-    }
-
     fn wrong_type(&self, name: &str, expected: &'static str) -> SetupError {
         SetupError::WrongType {
             field: self.field(name),
@@ -131,4 +120,16 @@ impl<'a> Values<'a> {
     fn field(&self, name: &str) -> String {
         format!("{}.{name}", self.table)
     }
+}
+
+/// The value of a field, if it is finite.
+pub(super) fn finite(field: String, value: f64) -> Result<f64, SetupError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(SetupError::OutOfRange {
+        field,
+        value,
+        allowed: "it must be a finite number",
+    })
 }

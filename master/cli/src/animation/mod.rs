@@ -28,7 +28,6 @@ mod scenery;
 mod stage;
 mod view;
 
-use std::fs;
 use std::path::Path;
 
 use linchpin_master::scene::Scene;
@@ -36,6 +35,7 @@ use linchpin_master::scene::Scene;
 pub use motion::Motion;
 
 use crate::commands::CommandError;
+use crate::files::write_text;
 
 /// Writes the animation of a run, or of one case of a scene, to `path`.
 ///
@@ -51,12 +51,8 @@ pub fn write(
         Some(case) => format!("{} [{case}]", scene.name),
         None => scene.name.clone(),
     };
-    let unwritable = |source| CommandError::Unwritable {
-        path: path.to_owned(),
-        source,
-    };
-    let text = page::text(&title, motion).map_err(unwritable)?;
-    fs::write(path, text).map_err(unwritable)
+    let text = page::text(&title, motion).map_err(CommandError::unwritable(path))?;
+    write_text(path, &text)
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use std::fmt::{self, Display, Write};
 
+use linchpin_proto::joint_load::Marker as _;
 use nalgebra::Vector3;
 
 use super::contacts::FLASH;
@@ -120,7 +121,7 @@ impl Picture<'_> {
                 Escaped(&marker.name)
             )?;
             for line in self.stage.shape(marker.form) {
-                let ends = line.iter().map(|own| pose.position + pose.rotation * own);
+                let ends = line.iter().map(|own| pose.point(own));
                 let ends: Vec<Vector3<f64>> = ends.collect();
                 writeln!(f, "{}", self.polyline("shape", &ends))?;
             }

@@ -1,7 +1,7 @@
 //! Where the mechanism moves.
 
 use linchpin_master::results::RecordedJoint;
-use linchpin_proto::joint_load::Pose;
+use linchpin_proto::joint_load::{Marker as _, Pose};
 use nalgebra::Vector3;
 
 use super::motion::{Form, Frame, Marker, Motion};
@@ -95,8 +95,10 @@ impl Stage {
 
     /// The two points in which a joint holds its markers in a frame (m), which coincide where the joint makes them.
     pub fn held(&self, joint: &RecordedJoint, motion: &Motion, frame: &Frame) -> [Vector3<f64>; 2] {
-        let lanes = joint.ends.map(|end| self.lane(&motion.markers[end]));
-        held(joint, motion, frame, lanes)
+        [0, 1].map(|end| {
+            let pose = self.pose(&motion.markers[joint.ends[end]], frame);
+            pose.point(&joint.points[end].into())
+        })
     }
 
     /// The lane of a marker in y (m); 0 for those that have none.
@@ -152,18 +154,6 @@ fn pose(marker: &Marker, frame: &Frame, lane: f64) -> Pose {
     }
 }
 
-fn held(
-    joint: &RecordedJoint,
-    motion: &Motion,
-    frame: &Frame,
-    lanes: [f64; 2],
-) -> [Vector3<f64>; 2] {
-    [0, 1].map(|end| {
-        let pose = pose(&motion.markers[joint.ends[end]], frame, lanes[end]);
-        pose.position + pose.rotation * Vector3::from(joint.points[end])
-    })
-}
-
 /// Lowest and highest coordinates of all markers and joints in all frames; 0 where nothing has a coordinate.
 fn extent(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
     let mut low = Vector3::repeat(f64::INFINITY);
@@ -179,8 +169,9 @@ fn extent(motion: &Motion) -> (Vector3<f64>, Vector3<f64>) {
             take(marker, &pose(marker, frame, 0.0).position);
         }
         for joint in &motion.joints {
-            for (end, point) in joint.ends.iter().zip(held(joint, motion, frame, [0.0; 2])) {
-                take(&motion.markers[*end], &point);
+            for (end, point) in joint.ends.into_iter().zip(joint.points) {
+                let marker = &motion.markers[end];
+                take(marker, &pose(marker, frame, 0.0).point(&point.into()));
             }
         }
     }

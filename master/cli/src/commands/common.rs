@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use linchpin_master::scene::{self, Override, Scene, SceneErrors, warnings};
 
 use super::CommandError;
+use crate::progress;
 
 /// A scene with changes.
 #[derive(Debug, Clone, clap::Args)]
@@ -33,6 +34,31 @@ impl SceneArguments {
         }
         Ok(scene)
     }
+
+    /// The scene with more settings than those given by `--set`.
+    pub fn with<'a>(&self, more: impl IntoIterator<Item = (&'a str, String)>) -> Self {
+        let mut arguments = self.clone();
+        let more = more.into_iter();
+        arguments.set.extend(more.map(|(key, value)| Override {
+            key: key.to_owned(),
+            value,
+        }));
+        arguments
+    }
+
+    /// A section of the scene that a study needs; `flags` do the same.
+    pub fn section<'a, T>(
+        &self,
+        found: &'a Option<T>,
+        section: &'static str,
+        flags: &'static str,
+    ) -> Result<&'a T, CommandError> {
+        found.as_ref().ok_or_else(|| CommandError::NothingToStudy {
+            path: self.scene.clone(),
+            section,
+            flags,
+        })
+    }
 }
 
 /// Where results go.
@@ -48,13 +74,8 @@ pub struct OutputArguments {
 }
 
 impl OutputArguments {
-    /// Makes the folder and tries whether files can be written there, before any work is done.
-    pub fn prepare(&self, scene: &Scene) -> Result<PathBuf, CommandError> {
-        self.prepare_for(&scene.name)
-    }
-
-    /// The same for results of something else than a scene.
-    pub fn prepare_for(&self, name: &str) -> Result<PathBuf, CommandError> {
+    /// Makes the folder for results of this name and tries whether files can be written there, before any work is done.
+    pub fn prepare(&self, name: &str) -> Result<PathBuf, CommandError> {
         let folder = self
             .out
             .clone()
@@ -68,15 +89,35 @@ impl OutputArguments {
         let is_logged = tracing::enabled!(tracing::Level::INFO);
         !self.quiet && !is_logged && std::io::stderr().is_terminal()
     }
+
+    /// Does work of so many parts, called `unit`, under a progress bar; the work calls what it is given after each
+    /// part.
+    pub fn with_progress<T>(
+        &self,
+        parts: usize,
+        unit: &str,
+        work: impl FnOnce(&(dyn Fn() + Sync)) -> T,
+    ) -> T {
+        let template = format!("{{bar:40}} {{pos}}/{{len}} {unit}  {{per_sec}}  {{eta}} left");
+        let bar = progress::bar(parts as u64, &template, self.shows_progress());
+        let done = work(&|| bar.inc(1));
+        bar.finish_and_clear();
+        done
+    }
+
+    /// Prints a summary and where the results are.
+    pub fn conclude(&self, summary: &str, results: &Path) -> Result<(), CommandError> {
+        if self.quiet {
+            return Ok(());
+        }
+        print(format_args!("{summary}results in {}\n", results.display()))
+    }
 }
 
 /// Makes a folder that files can be written to.
 pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
-    let unwritable = |source| CommandError::Unwritable {
-        path: folder.to_owned(),
-        source,
-    };
-    fs::create_dir_all(folder).map_err(unwritable)?;
+    let unwritable = CommandError::unwritable(folder);
+    fs::create_dir_all(folder).map_err(&unwritable)?;
     let trial = folder.join(".linchpin-trial");
     fs::write(&trial, "")
         .and_then(|()| fs::remove_file(&trial))
@@ -86,10 +127,9 @@ pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
 /// Removes results of an earlier run that this one would not overwrite if it failed.
 pub fn remove_stale(path: &Path) -> Result<(), CommandError> {
     match fs::remove_file(path) {
-        Err(source) if source.kind() != ErrorKind::NotFound => Err(CommandError::Unwritable {
-            path: path.to_owned(),
-            source,
-        }),
+        Err(source) if source.kind() != ErrorKind::NotFound => {
+            Err(CommandError::unwritable(path)(source))
+        }
         _ => Ok(()),
     }
 }

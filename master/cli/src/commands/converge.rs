@@ -1,13 +1,11 @@
 //! `linchpin converge`: errors, observed orders and cost over the macro step.
 
-use linchpin_master::scene::Override;
-
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, print};
+use super::common::{OutputArguments, SceneArguments};
+use crate::files::write_table;
 use crate::study::converge::{
-    converge, draw_errors, draw_work_precision, number_of_runs, summary, write_csv,
+    converge, draw_errors, draw_work_precision, number_of_runs, rows, summary,
 };
-use crate::study::progress;
 
 /// Run a scene over a list of macro steps and compare with the exact or the finest solution
 #[derive(Debug, clap::Args)]
@@ -37,52 +35,26 @@ pub struct Arguments {
 impl Arguments {
     /// The scene with what the flags say; the flags are checked like the keys of the file.
     fn scene_with_flags(&self) -> SceneArguments {
-        let mut arguments = self.scene.clone();
-        let steps = self.macro_steps.iter().map(|steps| Override {
-            key: "converge.macro_steps".to_owned(),
-            value: format!("[{steps}]"),
-        });
-        let reference = self.reference.iter().map(|reference| Override {
-            key: "converge.reference".to_owned(),
-            value: reference.clone(),
-        });
-        arguments.set.extend(steps.chain(reference));
-        arguments
+        let steps = self.macro_steps.iter();
+        let steps = steps.map(|steps| ("converge.macro_steps", format!("[{steps}]")));
+        let reference = self.reference.iter();
+        let reference = reference.map(|own| ("converge.reference", own.clone()));
+        self.scene.with(steps.chain(reference))
     }
 }
 
 /// Runs the study and writes table and pictures.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene_with_flags().load()?;
-    let settings = scene
-        .converge
-        .as_ref()
-        .ok_or_else(|| CommandError::NothingToStudy {
-            path: arguments.scene.scene.clone(),
-            section: "converge",
-            flags: "--macro-steps 1e-2,1e-3,1e-4",
-        })?;
-    let folder = arguments.output.prepare(&scene)?;
-    let bar = progress::bar(
-        number_of_runs(&scene, settings),
-        "runs",
-        arguments.output.shows_progress(),
-    );
-    let cases = converge(&scene, settings, &|| bar.inc(1))?;
-    bar.finish_and_clear();
-    let table = folder.join("converge.csv");
-    write_csv(&cases, &table).map_err(|source| CommandError::Table {
-        path: table,
-        source,
-    })?;
+    let flags = "--macro-steps 1e-2,1e-3,1e-4";
+    let given = &arguments.scene;
+    let settings = given.section(&scene.converge, "converge", flags)?;
+    let output = &arguments.output;
+    let folder = output.prepare(&scene.name)?;
+    let runs = number_of_runs(&scene, settings);
+    let cases = output.with_progress(runs, "runs", |tick| converge(&scene, settings, tick))?;
+    write_table(&folder.join("converge.csv"), rows(&cases))?;
     draw_errors(&cases, &folder.join("converge"))?;
     draw_work_precision(&cases, &folder.join("work-precision"))?;
-    if !arguments.output.quiet {
-        print(format_args!(
-            "{}\nresults in {}\n",
-            summary(&cases),
-            folder.display()
-        ))?;
-    }
-    Ok(())
+    output.conclude(&format!("{}\n", summary(&cases)), &folder)
 }

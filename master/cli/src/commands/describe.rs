@@ -6,7 +6,7 @@ use linchpin_master::Interrupt;
 use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
 use linchpin_master::scene::is_worker_address;
 use linchpin_proto::contract::{CallError, Contract};
-use linchpin_proto::v1::{self, DescribeReply, Model, Variable};
+use linchpin_proto::v1::{self, DescribeReply, Model, Parameter, Variable};
 use linchpin_proto::version::{PROTOCOL, negotiate};
 
 use super::CommandError;
@@ -87,25 +87,13 @@ fn model_text(model: &Model) -> String {
     let mut text = format!("\nmodel {}: {}\n", model.name, model.description);
     for (heading, variables) in [("inputs", &model.inputs), ("outputs", &model.outputs)] {
         text += &format!("  {heading}\n");
-        for Variable {
-            name,
-            unit,
-            description,
-            default,
-        } in variables
-        {
-            text += &line(name, unit, description, *default);
-        }
+        let of_variable =
+            |own: &Variable| line(&own.name, &own.unit, &own.description, own.default);
+        text.extend(variables.iter().map(of_variable));
     }
     text += "  parameters\n";
-    for parameter in &model.parameters {
-        text += &line(
-            &parameter.name,
-            &parameter.unit,
-            &parameter.description,
-            parameter.default,
-        );
-    }
+    let of_parameter = |own: &Parameter| line(&own.name, &own.unit, &own.description, own.default);
+    text.extend(model.parameters.iter().map(of_parameter));
     text += "  markers\n";
     for marker in &model.markers {
         let motion = [&marker.position, &marker.velocity, &marker.acceleration];
@@ -120,14 +108,7 @@ fn model_text(model: &Model) -> String {
     text += "  solvers\n";
     for solver in &model.solvers {
         text += &format!("    {:<20} {}\n", solver.name, solver.description);
-        for option in &solver.options {
-            text += &line(
-                &option.name,
-                &option.unit,
-                &option.description,
-                option.default,
-            );
-        }
+        text.extend(solver.options.iter().map(of_parameter));
     }
     let capabilities = model.capabilities.unwrap_or_default();
     text += &format!(

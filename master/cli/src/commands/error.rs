@@ -1,6 +1,6 @@
 //! Why a command failed, and how it ends the process.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use linchpin_master::RunError;
 use linchpin_master::connection::StartError;
@@ -141,6 +141,15 @@ pub enum CommandError {
 }
 
 impl CommandError {
+    /// That a folder or file cannot be written, by the system's reason.
+    pub fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::Unwritable {
+            path: path.clone(),
+            source,
+        }
+    }
+
     /// Exit code: 2 for mistakes that a check of the scene finds, [`interrupt::EXIT_CODE`] after an interrupt, 1 for
     /// everything else that happens later.
     pub fn exit_code(&self) -> u8 {

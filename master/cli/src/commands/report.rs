@@ -1,15 +1,14 @@
 //! `linchpin report`: scenes with many settings, and what their errors cost, on one page.
 
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use linchpin_master::scene::{is_study, load_study};
 
 use super::CommandError;
 use super::common::{OutputArguments, print};
+use crate::files::{write_table, write_text};
 use crate::study::StudyError;
-use crate::study::progress;
-use crate::study::report::{Depth, Picture, Plan, json, page, report, write_csv};
+use crate::study::report::{Depth, Picture, Plan, json, page, report};
 
 /// Compare coupling methods on scenes: errors against cost, residuals, energy, stability, on one page
 #[derive(Debug, clap::Args)]
@@ -58,34 +57,23 @@ impl Arguments {
 /// Runs the study and writes page and tables.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let plan = arguments.plan()?;
-    let folder = arguments.output.prepare_for(&plan.name)?;
-    let shows_progress = arguments.output.shows_progress();
-    let bar = progress::bar(plan.number_of_tasks(), "runs", shows_progress);
-    let found = report(&plan, &|| bar.inc(1))?;
-    bar.finish_and_clear();
-    let table = folder.join("report.csv");
-    write_csv(&found, &table).map_err(|source| CommandError::Table {
-        path: table,
-        source,
-    })?;
+    let folder = arguments.output.prepare(&plan.name)?;
+    let tasks = plan.number_of_tasks();
+    let output = &arguments.output;
+    let found = output.with_progress(tasks, "runs", |tick| report(&plan, tick))?;
+    write_table(&folder.join("report.csv"), found.rows())?;
     let json = json(&found).map_err(StudyError::Json)?;
-    write(&folder.join("report.json"), &json)?;
-    write(&folder.join("report.html"), &page(&found)?)?;
+    write_text(&folder.join("report.json"), &json)?;
+    let page_path = folder.join("report.html");
+    write_text(&page_path, &page(&found)?)?;
     for scene in &found.scenes {
         for picture in Picture::all(scene) {
-            picture.draw(&folder.join(format!("{}-{}", scene.name, picture.ending)))?;
+            let stem = folder.join(format!("{}-{}", scene.name, picture.ending));
+            picture.chart.write(&stem)?;
         }
     }
-    if !arguments.output.quiet {
-        let path = folder.join("report.html");
-        print(format_args!("report in {}\n", path.display()))?;
+    if !output.quiet {
+        print(format_args!("report in {}\n", page_path.display()))?;
     }
     Ok(())
-}
-
-fn write(path: &Path, text: &str) -> Result<(), CommandError> {
-    fs::write(path, text).map_err(|source| CommandError::Unwritable {
-        path: path.to_owned(),
-        source,
-    })
 }

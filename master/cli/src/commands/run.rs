@@ -63,7 +63,7 @@ impl Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
     let case_folders = case_folders(&scene)?;
-    let folder = arguments.output.prepare(&scene)?;
+    let folder = arguments.output.prepare(&scene.name)?;
     let job = Job {
         arguments,
         interrupt: interrupt::on_signals()?,
@@ -83,10 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if !arguments.no_plots {
         draw(&scene, &reports, &job.pictures)?;
     }
-    if !arguments.output.quiet {
-        print(format_args!("results in {}\n", folder.display()))?;
-    }
-    Ok(())
+    arguments.output.conclude("", &folder)
 }
 
 /// What all runs of one command share.

@@ -5,11 +5,11 @@ use std::path::PathBuf;
 use linchpin_master::scene::load_spectrum;
 
 use super::CommandError;
-use super::common::{OutputArguments, print};
+use super::common::OutputArguments;
+use crate::files::write_table;
 use crate::spectra::picture::{draw_curves, draw_region};
-use crate::spectra::table::{summary, write_curves, write_region};
+use crate::spectra::table::{curve_rows, region_rows, summary};
 use crate::spectra::{curves, number_of_points, region};
-use crate::study::progress;
 
 /// Compare integration schemes of nonsmooth mechanics by their spectral radius and period error
 #[derive(Debug, clap::Args)]
@@ -33,28 +33,21 @@ pub struct Arguments {
 /// Finds the spectra and writes tables and pictures.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let file = load_spectrum(&arguments.file)?;
-    let folder = arguments.output.prepare_for(&file.name)?;
-    let shows_progress = arguments.output.shows_progress();
-    let bar = progress::bar(number_of_points(&file), "points", shows_progress);
-    let tick = || bar.inc(1);
-    let found = curves(&file, &tick)?;
+    let folder = arguments.output.prepare(&file.name)?;
+    let output = &arguments.output;
     let settings = file.region.as_ref();
-    let cells = settings.map_or(Vec::new(), |settings| region(settings, &tick));
-    bar.finish_and_clear();
-    let unwritten = |path: PathBuf| |source| CommandError::Table { path, source };
+    let (found, cells) = output.with_progress(number_of_points(&file), "points", |tick| {
+        let cells = |settings| region(settings, tick);
+        let found = curves(&file, tick)?;
+        Ok::<_, CommandError>((found, settings.map_or(Vec::new(), cells)))
+    })?;
     if !found.is_empty() {
-        let table = folder.join("spectrum.csv");
-        write_curves(&found, &table).map_err(unwritten(table))?;
+        write_table(&folder.join("spectrum.csv"), curve_rows(&found))?;
         draw_curves(&file, &found, &folder.join("spectrum"))?;
     }
     if let Some(settings) = settings {
-        let table = folder.join("region.csv");
-        write_region(&cells, &table).map_err(unwritten(table))?;
+        write_table(&folder.join("region.csv"), region_rows(&cells))?;
         draw_region(settings, &cells, &folder.join("region"))?;
     }
-    if !arguments.output.quiet {
-        let summary = summary(&found, &cells);
-        print(format_args!("{summary}results in {}\n", folder.display()))?;
-    }
-    Ok(())
+    output.conclude(&summary(&found, &cells), &folder)
 }

@@ -2,12 +2,10 @@
 
 use std::str::FromStr;
 
-use linchpin_master::scene::Override;
-
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, print};
-use crate::study::progress;
-use crate::study::stability::{Grid, draw_map, map, number_of_points, summary, write_csv};
+use super::common::{OutputArguments, SceneArguments};
+use crate::files::write_table;
+use crate::study::stability::{Grid, draw_map, map, number_of_points, rows, summary};
 
 /// Map the stability of a scene over two of its settings
 #[derive(Debug, clap::Args)]
@@ -85,7 +83,7 @@ impl FromStr for AxisRange {
 
 impl AxisRange {
     /// The same as a setting of the scene.
-    fn as_override(&self, key: &str) -> Override {
+    fn as_setting(&self) -> String {
         let Self {
             keys,
             from,
@@ -94,60 +92,34 @@ impl AxisRange {
             ..
         } = self;
         let scale = if self.is_log { "log" } else { "linear" };
-        Override {
-            key: key.to_owned(),
-            value: format!(
-                "{{ key = {keys:?}, from = {from:?}, to = {to:?}, points = {points}, scale = {scale:?} }}"
-            ),
-        }
+        format!(
+            "{{ key = {keys:?}, from = {from:?}, to = {to:?}, points = {points}, scale = {scale:?} }}"
+        )
     }
 }
 
 impl Arguments {
     /// The scene with what the flags say; the flags are checked like the keys of the file.
     fn scene_with_flags(&self) -> SceneArguments {
-        let mut arguments = self.scene.clone();
-        let x = self.x.iter().map(|axis| axis.as_override("stability.x"));
-        let y = self.y.iter().map(|axis| axis.as_override("stability.y"));
-        arguments.set.extend(x.chain(y));
-        arguments
+        let x = self.x.iter().map(|axis| ("stability.x", axis.as_setting()));
+        let y = self.y.iter().map(|axis| ("stability.y", axis.as_setting()));
+        self.scene.with(x.chain(y))
     }
 }
 
 /// Maps the scene and writes table and picture.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene_with_flags().load()?;
-    let settings = scene
-        .stability
-        .as_ref()
-        .ok_or_else(|| CommandError::NothingToStudy {
-            path: arguments.scene.scene.clone(),
-            section: "stability",
-            flags: "--x KEY=FROM:TO:POINTS and --y KEY=FROM:TO:POINTS",
-        })?;
-    let grid = Grid::new(settings);
-    let folder = arguments.output.prepare(&scene)?;
-    let bar = progress::bar(
-        number_of_points(&scene, &grid),
-        "points",
-        arguments.output.shows_progress(),
-    );
-    let maps = map(&scene, &grid, &|| bar.inc(1))?;
-    bar.finish_and_clear();
-    let table = folder.join("stability.csv");
-    write_csv(&maps, &table).map_err(|source| CommandError::Table {
-        path: table,
-        source,
-    })?;
+    let flags = "--x KEY=FROM:TO:POINTS and --y KEY=FROM:TO:POINTS";
+    let given = &arguments.scene;
+    let grid = Grid::new(given.section(&scene.stability, "stability", flags)?);
+    let output = &arguments.output;
+    let folder = output.prepare(&scene.name)?;
+    let points = number_of_points(&scene, &grid);
+    let maps = output.with_progress(points, "points", |tick| map(&scene, &grid, tick))?;
+    write_table(&folder.join("stability.csv"), rows(&maps))?;
     draw_map(&maps, &grid, &folder.join("stability"))?;
-    if !arguments.output.quiet {
-        print(format_args!(
-            "{}results in {}\n",
-            summary(&maps),
-            folder.display()
-        ))?;
-    }
-    Ok(())
+    output.conclude(&summary(&maps), &folder)
 }
 
 #[cfg(test)]
@@ -161,7 +133,7 @@ mod tests {
             .unwrap();
         assert_eq!(axis.keys, ["coupling.beta", "coupling.gamma"]);
         assert_eq!(
-            axis.as_override("stability.x").value,
+            axis.as_setting(),
             "{ key = [\"coupling.beta\", \"coupling.gamma\"], from = 0.0001, to = 0.5, points = 7, scale = \"log\" }"
         );
     }

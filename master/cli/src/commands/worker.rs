@@ -6,10 +6,10 @@ use std::sync::Arc;
 use linchpin_models::models;
 use linchpin_worker::host::{Host, Limits};
 use linchpin_worker::server::{Address, Reach, Server};
-use tokio::signal::unix::{SignalKind, signal};
 use tokio::sync::oneshot;
 
 use super::CommandError;
+use crate::interrupt;
 
 /// Serve the built-in models over gRPC
 #[derive(Debug, clap::Args)]
@@ -66,14 +66,12 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         Reach::Local
     };
     let server = Server::bind(host, arguments.listen.clone(), reach).await?;
-    let mut terminate = signal(SignalKind::terminate())?;
-    let mut interrupt = signal(SignalKind::interrupt())?;
+    let mut signals = interrupt::signals()?;
     let input_closed = arguments.exit_with_stdin.then(watch_input);
     announce(server.address());
     let shutdown = async move {
         tokio::select! {
-            _ = terminate.recv() => {}
-            _ = interrupt.recv() => {}
+            () = interrupt::any(&mut signals) => {}
             () = closed(input_closed) => {}
         }
     };

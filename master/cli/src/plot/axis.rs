@@ -14,6 +14,9 @@ const LABEL_GAP: f64 = 24.0;
 /// Distance between tick labels one above the other, in text heights.
 const LINE_SPACING: f64 = 1.55;
 
+/// What an axis shows: a range of the coordinate in which its scale is uniform; none if its panel has no point.
+pub(super) type Reach = (Scale, Option<(f64, f64)>);
+
 /// A range on a scale with its ticks. To plotters it is an axis of the coordinate in which the scale is uniform.
 #[derive(Clone)]
 pub(super) struct Axis {
@@ -24,19 +27,24 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// An axis over a range of the uniform coordinate, of the given length in drawing units, with labels side by side.
-    pub(super) fn horizontal(scale: Scale, range: (f64, f64), length: i32) -> Self {
+    /// An axis of the given length in drawing units, with labels side by side.
+    pub(super) fn horizontal((scale, range): Reach, length: i32) -> Self {
         let room = |tick: &Tick| text_width(&tick.label, TICK_TEXT) + units(LABEL_GAP);
-        Self::with_fitting_ticks(scale, range, length, room)
+        range.map_or_else(Self::blank, |range| {
+            Self::with_fitting_ticks(scale, range, length, room)
+        })
     }
 
     /// The same with labels one above the other.
-    pub(super) fn vertical(scale: Scale, range: (f64, f64), length: i32) -> Self {
-        Self::with_fitting_ticks(scale, range, length, |_| units(LINE_SPACING * TICK_TEXT))
+    pub(super) fn vertical((scale, range): Reach, length: i32) -> Self {
+        let room = |_: &Tick| units(LINE_SPACING * TICK_TEXT);
+        range.map_or_else(Self::blank, |range| {
+            Self::with_fitting_ticks(scale, range, length, room)
+        })
     }
 
     /// An axis without ticks, for a panel without any point.
-    pub(super) fn blank() -> Self {
+    fn blank() -> Self {
         let ticks = Ticks {
             major: Vec::new(),
             minor: Vec::new(),

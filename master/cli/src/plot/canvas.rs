@@ -19,11 +19,10 @@ static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans-subset.ttf");
 const CHANNELS: usize = 3;
 
 /// Result of drawing on the backend `DB`.
-pub(super) type Drawn<DB, T = ()> =
-    Result<T, DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
+pub type Drawn<DB, T = ()> = Result<T, DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 /// A backend with its own way to draw a line through many points.
-pub(super) trait Surface: DrawingBackend {
+pub trait Surface: DrawingBackend {
     /// Draws straight lines between neighbouring points.
     fn polyline(
         area: &DrawingArea<Self, Shift>,
@@ -61,8 +60,49 @@ impl Surface for BitMapBackend<'_> {
     }
 }
 
+/// Something that can be drawn.
+pub trait Chart {
+    /// Writes `STEM.svg` and `STEM.png`.
+    ///
+    /// # Errors
+    /// [`PlotError`]: data that do not fit together, too many panels, no point to draw, unwritable path.
+    fn write(&self, stem: &Path) -> Result<(), PlotError>;
+
+    /// The same picture as the text of an SVG, for a page; `name` is its name in errors.
+    ///
+    /// # Errors
+    /// [`PlotError`], as for [`Chart::write`], but for the path.
+    fn svg(&self, name: &str) -> Result<String, PlotError>;
+}
+
+impl<T: Pictured> Chart for T {
+    fn write(&self, stem: &Path) -> Result<(), PlotError> {
+        let picture = decided(self, stem)?;
+        write_svg(&picture, stem)?;
+        write_png(&picture, stem)
+    }
+
+    fn svg(&self, name: &str) -> Result<String, PlotError> {
+        let stem = Path::new(name);
+        svg(&decided(self, stem)?, stem)
+    }
+}
+
+/// A chart whose sizes can be decided.
+pub trait Pictured {
+    /// Its picture; `None` if it has no point to draw.
+    fn picture(&self) -> Result<Option<impl Picture>, PlotError>;
+}
+
+fn decided<'a>(chart: &'a impl Pictured, stem: &Path) -> Result<impl Picture + 'a, PlotError> {
+    embed_font()?;
+    chart.picture()?.ok_or_else(|| PlotError::NoData {
+        stem: stem.to_path_buf(),
+    })
+}
+
 /// Something of a fixed size that can be drawn on any surface.
-pub(super) trait Picture {
+pub trait Picture {
     /// Width and height in pixels.
     fn size(&self) -> (u32, u32);
 
@@ -71,17 +111,11 @@ pub(super) trait Picture {
 }
 
 /// Makes the embedded font known to plotters; needed before any text is measured.
-pub(super) fn embed_font() -> Result<(), PlotError> {
+fn embed_font() -> Result<(), PlotError> {
     static REGISTERED: OnceLock<bool> = OnceLock::new();
     let readable =
         REGISTERED.get_or_init(|| register_font(FONT_FAMILY, FontStyle::Normal, FONT).is_ok());
     readable.then_some(()).ok_or(PlotError::Font)
-}
-
-/// Writes `STEM.svg` and `STEM.png`.
-pub(super) fn write(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
-    write_svg(picture, stem)?;
-    write_png(picture, stem)
 }
 
 fn with_ending(stem: &Path, ending: &str) -> PathBuf {
@@ -112,8 +146,7 @@ fn write_svg(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
         .map_err(|source| PlotError::WriteSvg { path, source })
 }
 
-/// The text of the SVG; `stem` names the picture in errors.
-pub(super) fn svg(picture: &impl Picture, stem: &Path) -> Result<String, PlotError> {
+fn svg(picture: &impl Picture, stem: &Path) -> Result<String, PlotError> {
     let mut drawing = String::new();
     paint(
         picture,

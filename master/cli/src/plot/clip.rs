@@ -59,8 +59,8 @@ mod tests {
 
     fn axes() -> (Axis, Axis) {
         (
-            Axis::horizontal(Scale::Logarithmic, (-1.0, 1.0), 1000),
-            Axis::vertical(Scale::Linear, (0.0, 2.0), 1000),
+            Axis::horizontal((Scale::Logarithmic, Some((-1.0, 1.0))), 1000),
+            Axis::vertical((Scale::Linear, Some((0.0, 2.0))), 1000),
         )
     }
 

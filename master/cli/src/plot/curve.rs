@@ -3,11 +3,44 @@
 use plotters::prelude::*;
 
 use super::canvas::{Drawn, Surface};
-use super::legend::distinct;
+use super::legend::{distinct, style_of};
 use super::panel::Panel;
+use super::scale::Scale;
 use super::spread::spread as spread_along_axis;
-use super::style::{curve_style, stroke, units};
+use super::style::{stroke, units};
 use super::thinning::Run;
+
+/// Points that are joined by straight lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// Name in the legend; equal names in several panels have equal colours, and an empty one is left out.
+    pub name: String,
+    /// Points in their order. One that cannot be drawn breaks the line.
+    pub points: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// The parts without a point that axes of these scales cannot hold.
+    pub(super) fn runs(&self, scales: [Scale; 2]) -> impl Iterator<Item = &[(f64, f64)]> {
+        let points = self.points.split(move |point| !holds(scales, point));
+        points.filter(|run| !run.is_empty())
+    }
+}
+
+fn holds([x, y]: [Scale; 2], point: &(f64, f64)) -> bool {
+    x.holds(point.0) && y.holds(point.1)
+}
+
+/// All points of curves that axes of these scales can hold.
+pub(super) fn drawable(curves: &[Curve], scales: [Scale; 2]) -> impl Iterator<Item = (f64, f64)> {
+    let points = curves.iter().flat_map(|curve| &curve.points).copied();
+    points.filter(move |point| holds(scales, point))
+}
+
+/// Names of curves.
+pub(super) fn names(curves: &[Curve]) -> impl Iterator<Item = &str> {
+    curves.iter().map(|curve| curve.name.as_str())
+}
 
 /// Width of the lines in pixels.
 pub(super) const LINE_WIDTH: f64 = 1.75;
@@ -18,8 +51,8 @@ const MARKERS_PER_CURVE: usize = 9;
 
 /// Names that share a panel with others: their curves have a marker and an entry in the legend. A curve alone in its
 /// panel is told by the labels of the axes.
-pub(super) fn names_to_tell_apart<'a>(panels: impl Iterator<Item = Vec<&'a str>>) -> Vec<&'a str> {
-    distinct(panels.filter(|names| names.len() > 1).flatten())
+pub(super) fn names_to_tell_apart<'a>(panels: impl Iterator<Item = &'a [Curve]>) -> Vec<&'a str> {
+    distinct(panels.filter(|curves| curves.len() > 1).flat_map(names))
 }
 
 /// How the markers of a curve are spread.
@@ -38,8 +71,7 @@ pub(super) fn draw<DB: Surface>(
     (name, names): (&str, &[&str]),
     spread: Spread,
 ) -> Drawn<DB> {
-    let index = names.iter().position(|other| *other == name);
-    let (colour, marker) = curve_style(index.unwrap_or(0));
+    let (index, colour, marker) = style_of(name, names);
     let mut places = Vec::new();
     for run in runs {
         let run: Vec<(i32, i32)> = run.into_iter().map(|point| inside.place(point)).collect();

@@ -14,16 +14,6 @@ pub enum PlotError {
         /// Path of the picture without its extension.
         stem: PathBuf,
     },
-    /// A series has not one value for each time.
-    #[error("series `{series}` has {times} times and {values} values; each time needs one value")]
-    UnequalLengths {
-        /// Name of the series.
-        series: String,
-        /// Number of times.
-        times: usize,
-        /// Number of values.
-        values: usize,
-    },
     /// The times of a series go backwards.
     #[error(
         "series `{series}`: time {time} at index {index} follows {before}; times must not decrease"

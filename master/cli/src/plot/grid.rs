@@ -12,6 +12,28 @@ pub enum Verdict {
     Undecided,
 }
 
+impl Verdict {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Stable, Self::Unstable, Self::Undecided];
+
+    /// One of the two that can be told.
+    pub fn of(is_stable: bool) -> Self {
+        match is_stable {
+            true => Self::Stable,
+            false => Self::Unstable,
+        }
+    }
+
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Stable => "stable",
+            Self::Unstable => "unstable",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
 /// One point of a map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapCell {

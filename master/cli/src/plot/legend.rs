@@ -7,6 +7,7 @@ use super::canvas::{Drawn, Surface};
 use super::style::{
     FRAME, LABEL_TEXT, Marker, curve_style, fitted, stroke, text, text_width, units,
 };
+use super::tiling::PICTURE_WIDTH;
 
 /// What stands for a name in a legend.
 #[derive(Clone, Copy)]
@@ -34,8 +35,9 @@ const GAP: f64 = 32.0;
 const MARKER_RADIUS: f64 = 6.0;
 
 impl Legend {
-    /// Breaks the entries into rows of at most `width` drawing units.
-    pub(super) fn new(entries: impl IntoIterator<Item = (Key, String)>, width: i32) -> Self {
+    /// Breaks the entries into rows as wide as a picture.
+    pub(super) fn new(entries: impl IntoIterator<Item = (Key, String)>) -> Self {
+        let width = units(PICTURE_WIDTH);
         let mut rows: Vec<Vec<Entry>> = Vec::new();
         let mut free = 0;
         for (key, name) in entries {
@@ -60,8 +62,8 @@ impl Legend {
     }
 
     /// One entry for each name, in the styles of the curves in this order.
-    pub(super) fn of_curves(names: &[&str], line: f64, width: i32) -> Self {
-        Self::new(curve_keys(names, line), width)
+    pub(super) fn of_curves(names: &[&str], line: f64) -> Self {
+        Self::new(curve_keys(names, line))
     }
 
     /// Height in pixels.
@@ -98,6 +100,13 @@ pub(super) fn curve_keys<'a>(
         };
         (key, (*name).to_owned())
     })
+}
+
+/// Place of a name among those of a legend, and the style of its curve.
+pub(super) fn style_of(name: &str, names: &[&str]) -> (Option<usize>, RGBColor, Marker) {
+    let index = names.iter().position(|other| *other == name);
+    let (colour, marker) = curve_style(index.unwrap_or(0));
+    (index, colour, marker)
 }
 
 impl Entry {

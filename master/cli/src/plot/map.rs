@@ -1,68 +1,48 @@
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::RGBColor;
 
-use super::axis::Axis;
-use super::canvas::{Drawn, Picture, Surface, embed_font, svg, write};
+use super::axis::Reach;
+use super::canvas::{Drawn, Picture, Pictured, Surface};
 use super::colour::GrowthColours;
 use super::error::PlotError;
 use super::grid::{MapAxis, MapPanel, PlacedCell, Verdict};
 use super::legend::{Key, Legend};
-use super::panel::{Axes, Panel, inner_height, inner_width, room_above, room_below, room_left};
+use super::panel::{Labels, Panel, room_above, room_below};
+use super::region::{NamedPoint, RegionLine, draw_line, draw_point};
 use super::style::{Marker, units};
-use super::tiling::{PICTURE_WIDTH, Tiling, check_number};
+use super::tiling::{Sheet, check_number};
 
-/// Stability over two parameters, in one or several panels.
+/// Stability over two parameters, in one or several panels: growth factors as colours of the cells, marks for the
+/// verdicts on them, lines and named points on top.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     /// Panels, two in a row, at most 12.
     pub panels: Vec<MapPanel>,
     /// Label of the colour bar, which is drawn if any cell has a growth factor.
     pub growth_label: String,
+    /// Whether every cell has a mark; without marks there is nothing to see where no cell has a growth factor.
+    pub has_marks: bool,
+    /// Lines over every panel, in the order of the legend.
+    pub lines: Vec<RegionLine>,
+    /// Points with a name in every panel.
+    pub points: Vec<NamedPoint>,
 }
 
-/// Writes `STEM.svg` and `STEM.png`: a mark for the verdict on every cell, its growth factor as the colour behind.
-///
-/// # Errors
-/// [`PlotError`]: grid values not increasing, number of cells does not fit the grid, too many panels, no cell to draw,
-/// unwritable path.
-pub fn map(plot: &StabilityMap, stem: &Path) -> Result<(), PlotError> {
-    write(&checked_layout(plot, stem)?, stem)
-}
-
-/// The same picture as the text of an SVG, for a page; `name` is its name in errors.
-///
-/// # Errors
-/// [`PlotError`], as for [`map`], but for the path.
-pub fn map_svg(plot: &StabilityMap, name: &str) -> Result<String, PlotError> {
-    let stem = Path::new(name);
-    svg(&checked_layout(plot, stem)?, stem)
-}
-
-fn checked_layout<'a>(plot: &'a StabilityMap, stem: &Path) -> Result<Layout<'a>, PlotError> {
-    embed_font()?;
-    check_number(plot.panels.len())?;
-    plot.panels.iter().try_for_each(MapPanel::check)?;
-    let layout = Layout::new(plot);
-    if layout.cells.iter().all(Vec::is_empty) {
-        return Err(PlotError::NoData {
-            stem: stem.to_path_buf(),
-        });
+impl Pictured for StabilityMap {
+    fn picture(&self) -> Result<Option<impl Picture>, PlotError> {
+        check_number(self.panels.len())?;
+        self.panels.iter().try_for_each(MapPanel::check)?;
+        let layout = Layout::new(self);
+        let has_cells = layout.cells.iter().any(|cells| !cells.is_empty());
+        let is_seen = has_cells && (self.has_marks || layout.colours.is_some());
+        Ok(is_seen.then_some(layout))
     }
-    Ok(layout)
 }
 
 /// Radius of a mark as a share of the cell, and its largest size in pixels.
 const MARK_SHARE: f64 = 0.3;
 const LARGEST_MARK: f64 = 8.0;
-
-const VERDICTS: [(Verdict, &str); 3] = [
-    (Verdict::Stable, "stable"),
-    (Verdict::Unstable, "unstable"),
-    (Verdict::Undecided, "undecided"),
-];
 
 /// Marks as in stability plots of the co-simulation literature: circles where stable, the rest recedes.
 fn mark(verdict: Verdict) -> (Marker, RGBColor) {
@@ -78,8 +58,7 @@ struct Layout<'a> {
     plot: &'a StabilityMap,
     cells: Vec<Vec<PlacedCell>>,
     colours: Option<GrowthColours>,
-    legend: Legend,
-    tiling: Tiling,
+    sheet: Sheet,
 }
 
 impl<'a> Layout<'a> {
@@ -87,23 +66,23 @@ impl<'a> Layout<'a> {
         let cells: Vec<Vec<PlacedCell>> = plot.panels.iter().map(MapPanel::placed_cells).collect();
         let all = || cells.iter().flatten().map(|placed| placed.cell);
         let found = |verdict: Verdict| all().any(|cell| cell.verdict == verdict);
-        let entries = VERDICTS
+        let marked = Verdict::ALL
             .into_iter()
-            .filter(|(verdict, _)| found(*verdict))
-            .map(|(verdict, name)| {
+            .filter(|verdict| plot.has_marks && found(*verdict))
+            .map(|verdict| {
                 let (marker, colour) = mark(verdict);
                 let key = Key {
                     marker: Some(marker),
                     colour,
                     line: None,
                 };
-                (key, name.to_owned())
+                (key, verdict.name().to_owned())
             });
+        let entries = marked.chain(plot.lines.iter().map(RegionLine::entry));
         Self {
             plot,
             colours: GrowthColours::spanning(all().filter_map(|cell| cell.growth)),
-            legend: Legend::new(entries, units(PICTURE_WIDTH)),
-            tiling: Tiling::new(plot.panels.len()),
+            sheet: Sheet::new(Legend::new(entries), plot.panels.len()),
             cells,
         }
     }
@@ -121,7 +100,12 @@ impl<'a> Layout<'a> {
         if let Some(colours) = &self.colours {
             draw_colours(&inside, colours, cells)?;
         }
-        draw_marks(&inside, cells)?;
+        if self.plot.has_marks {
+            draw_marks(&inside, cells)?;
+        }
+        let (mut lines, mut points) = (self.plot.lines.iter(), self.plot.points.iter());
+        lines.try_for_each(|line| draw_line(&inside, line))?;
+        points.try_for_each(|point| draw_point(&inside, point))?;
         inside.frame()
     }
 
@@ -146,33 +130,17 @@ impl<'a> Layout<'a> {
 }
 
 /// The axes of a panel, without its cells.
-pub(super) fn panel_of<DB: Surface>(
-    area: &DrawingArea<DB, Shift>,
-    panel: &MapPanel,
-) -> Drawn<DB, Panel<DB>> {
-    let height = inner_height(area, &panel.title);
-    let y = axis(&panel.y, |range| {
-        Axis::vertical(panel.y.scale, range, height)
-    });
-    let left = room_left(&y);
-    let width = inner_width(area, left);
-    let x = axis(&panel.x, |range| {
-        Axis::horizontal(panel.x.scale, range, width)
-    });
-    let axes = Axes {
+fn panel_of<DB: Surface>(area: &DrawingArea<DB, Shift>, panel: &MapPanel) -> Drawn<DB, Panel<DB>> {
+    let labels = Labels {
         title: &panel.title,
-        x,
-        y,
-        x_label: Some(&panel.x.label),
-        y_label: &panel.y.label,
-        left,
-        grid: false,
+        x: &panel.x.label,
+        y: &panel.y.label,
     };
-    Panel::new(area, axes)
+    Panel::filling(area, &labels, [reach(&panel.x), reach(&panel.y)], false)
 }
 
 /// Fills every cell with the colour of its growth factor.
-pub(super) fn draw_colours<DB: Surface>(
+fn draw_colours<DB: Surface>(
     inside: &Panel<DB>,
     colours: &GrowthColours,
     cells: &[PlacedCell],
@@ -187,12 +155,11 @@ pub(super) fn draw_colours<DB: Surface>(
     Ok(())
 }
 
-fn axis(axis: &MapAxis, with_range: impl FnOnce((f64, f64)) -> Axis) -> Axis {
+fn reach(axis: &MapAxis) -> Reach {
     let intervals = axis.intervals();
-    match (intervals.first(), intervals.last()) {
-        (Some(first), Some(last)) => with_range((first.lower, last.upper)),
-        _ => Axis::blank(),
-    }
+    let ends = intervals.first().zip(intervals.last());
+    let range = ends.map(|(first, last)| (first.lower, last.upper));
+    (axis.scale, range)
 }
 
 /// Lower left and upper right corner of a cell, in drawing units.
@@ -222,22 +189,18 @@ fn draw_marks<DB: Surface>(inside: &Panel<DB>, cells: &[PlacedCell]) -> Drawn<DB
 
 impl Picture for Layout<'_> {
     fn size(&self) -> (u32, u32) {
-        (
-            PICTURE_WIDTH as u32,
-            (self.legend.height() + self.tiling.height()).ceil() as u32,
-        )
+        self.sheet.size()
     }
 
     fn draw<DB: Surface>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let (head, mut rest) = area.split_vertically(units(self.legend.height()));
-        self.legend.draw(&head)?;
+        let mut rest = self.sheet.below_legend(area)?;
         if let Some(colours) = &self.colours {
             let width = rest.dim_in_pixel().0 as i32;
             let (panels, bar) = rest.split_horizontally(width - colours.width());
             self.draw_colour_bar(colours, &bar)?;
             rest = panels;
         }
-        let places = self.tiling.places(&rest);
+        let places = self.sheet.places(&rest);
         let panels = self.plot.panels.iter().zip(&self.cells);
         panels
             .zip(&places)

@@ -1,9 +1,9 @@
 //! Pictures of numerical results: data in, one SVG and one PNG out.
 //!
-//! Five charts: [`time_panels`] (quantities over time and, as [`Portrait`]s, over each other), [`convergence`] (log-log curves
-//! with reference slopes; a work-precision diagram is the same chart with cost on the abscissa), [`map`] (stability over two
-//! parameters), [`curves`] (any curves, as far as their axes reach) and [`region`] (a map with lines and named points).
-//! All of them write `STEM.svg` and `STEM.png` from one drawing.
+//! Three kinds of [`Chart`]: [`TimePanels`] (quantities over time and, as [`Portrait`]s, over each other),
+//! [`CurvePlot`] (log-log curves of errors with reference slopes, a work-precision diagram with cost on the abscissa,
+//! any other curves as far as their axes reach) and [`StabilityMap`] (stability over two parameters, with lines and
+//! named points).
 //!
 //! What cannot be drawn is a gap in a line, never a failure: NaN, infinity, a magnitude above 1e300, and on a
 //! logarithmic axis everything below 1e-300, zero and negative numbers.
@@ -12,7 +12,6 @@ mod axis;
 mod canvas;
 mod clip;
 mod colour;
-mod convergence;
 mod curve;
 mod curves;
 mod error;
@@ -33,20 +32,19 @@ mod tiling;
 mod time_marks;
 mod time_panels;
 
-pub use convergence::{
-    ConvergenceCurve, ConvergencePanel, ConvergencePlot, convergence, convergence_svg,
-};
-pub use curves::{Curve, CurvePanel, CurvePlot, curves};
+pub use canvas::Chart;
+pub use curve::Curve;
+pub use curves::{CurvePanel, CurvePlot, Markers};
 pub use error::PlotError;
 pub use grid::{MapAxis, MapCell, MapPanel, Verdict};
-pub use map::{StabilityMap, map, map_svg};
-pub use portrait::{Path, Portrait};
-pub use region::{NamedPoint, RegionLine, RegionPlot, region};
+pub use map::StabilityMap;
+pub use portrait::Portrait;
+pub use region::{NamedPoint, RegionLine};
 pub use scale::Scale;
 pub(crate) use style::{PALETTE_SIZE, palette_colour};
 pub(crate) use tick::Ticks;
 pub use time_marks::TimeMarks;
-pub use time_panels::{TimePanel, TimePanels, TimeSeries, time_panels, time_panels_svg};
+pub use time_panels::{TimePanel, TimePanels};
 
 #[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::axis::Axis;
+use super::axis::{Axis, Reach};
 use super::canvas::{Drawn, Surface};
 use super::style::{
     FINE_GRID, FRAME, GRID, LABEL_TEXT, REFERENCE_TEXT, TICK_TEXT, TITLE_TEXT, fitted, stroke,
@@ -44,14 +44,12 @@ pub(super) fn height_for_label(label: &str, most: f64) -> f64 {
     (width + LABEL_TEXT).min(most)
 }
 
-/// Length in drawing units of the y axis in an area.
-pub(super) fn inner_height<DB: Surface>(area: &DrawingArea<DB, Shift>, title: &str) -> i32 {
-    area.dim_in_pixel().1 as i32 - units(room_above(title) + room_below())
-}
-
-/// Length in drawing units of the x axis in an area.
-pub(super) fn inner_width<DB: Surface>(area: &DrawingArea<DB, Shift>, left: i32) -> i32 {
-    area.dim_in_pixel().0 as i32 - units(RIGHT_MARGIN) - left
+/// What is said around a panel.
+pub(super) struct Labels<'a> {
+    /// Title above the panel; an empty one takes no room.
+    pub title: &'a str,
+    pub x: &'a str,
+    pub y: &'a str,
 }
 
 /// Axes with their labels.
@@ -78,6 +76,29 @@ pub(super) struct Panel<DB: Surface> {
 }
 
 impl<DB: Surface> Panel<DB> {
+    /// Draws a panel whose axes are as long as the area allows.
+    pub(super) fn filling(
+        area: &DrawingArea<DB, Shift>,
+        labels: &Labels<'_>,
+        [x, y]: [Reach; 2],
+        grid: bool,
+    ) -> Drawn<DB, Self> {
+        let (width, height) = area.dim_in_pixel();
+        let around = units(room_above(labels.title) + room_below());
+        let y = Axis::vertical(y, height as i32 - around);
+        let left = room_left(&y);
+        let axes = Axes {
+            title: labels.title,
+            x: Axis::horizontal(x, width as i32 - units(RIGHT_MARGIN) - left),
+            y,
+            x_label: Some(labels.x),
+            y_label: labels.y,
+            left,
+            grid,
+        };
+        Self::new(area, axes)
+    }
+
     /// Draws grid, frame, ticks and labels into the area.
     pub(super) fn new(area: &DrawingArea<DB, Shift>, axes: Axes<'_>) -> Drawn<DB, Self> {
         let below = if axes.x_label.is_some() {

@@ -1,34 +1,15 @@
-use std::path::Path;
+//! Lines and named points over a map.
 
-use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::canvas::{Drawn, Picture, Surface, embed_font, write};
+use super::canvas::{Drawn, Surface};
 use super::clip::clipped;
-use super::colour::GrowthColours;
-use super::error::PlotError;
-use super::grid::{MapPanel, PlacedCell};
-use super::legend::{Key, Legend};
-use super::map::{draw_colours, panel_of};
-use super::panel::{Panel, room_above, room_below};
+use super::legend::Key;
+use super::panel::Panel;
 use super::style::{LABEL_TEXT, Marker, stroke, text, units};
-use super::tiling::{PICTURE_WIDTH, Tiling};
 
-/// Growth factors over two parameters as colours, with lines and named points on top.
-#[derive(Clone, Debug)]
-pub struct RegionPlot {
-    /// The factors; verdicts are not marked.
-    pub panel: MapPanel,
-    /// Label of the colour bar.
-    pub growth_label: String,
-    /// Lines, in the order of the legend.
-    pub lines: Vec<RegionLine>,
-    /// Points with a name.
-    pub points: Vec<NamedPoint>,
-}
-
-/// A line through a [`RegionPlot`].
+/// A line over a map.
 #[derive(Clone, Debug)]
 pub struct RegionLine {
     /// Name in the legend.
@@ -39,7 +20,7 @@ pub struct RegionLine {
     pub points: Vec<(f64, f64)>,
 }
 
-/// A point of a [`RegionPlot`] with its name beside it.
+/// A point of a map with its name beside it.
 #[derive(Clone, Debug)]
 pub struct NamedPoint {
     /// Its name.
@@ -48,58 +29,25 @@ pub struct NamedPoint {
     pub place: (f64, f64),
 }
 
-/// Writes `STEM.svg` and `STEM.png`.
-///
-/// # Errors
-/// [`PlotError`]: grid values not increasing, number of cells does not fit the grid, no cell to draw, unwritable
-/// path.
-pub fn region(plot: &RegionPlot, stem: &Path) -> Result<(), PlotError> {
-    embed_font()?;
-    plot.panel.check()?;
-    let cells = plot.panel.placed_cells();
-    let growth = cells.iter().filter_map(|placed| placed.cell.growth);
-    let colours = GrowthColours::spanning(growth).ok_or_else(|| PlotError::NoData {
-        stem: stem.to_path_buf(),
-    })?;
-    write(&Layout::new(plot, cells, colours), stem)
-}
-
 const LINE_WIDTH: f64 = 2.5;
 const DOT_RADIUS: f64 = 2.5;
 const DOT_DISTANCE: f64 = 11.0;
 const POINT_RADIUS: f64 = 7.0;
 const NAME_GAP: f64 = 12.0;
 
-/// A picture with all sizes decided.
-struct Layout<'a> {
-    plot: &'a RegionPlot,
-    cells: Vec<PlacedCell>,
-    colours: GrowthColours,
-    legend: Legend,
-    tiling: Tiling,
-}
-
-impl<'a> Layout<'a> {
-    fn new(plot: &'a RegionPlot, cells: Vec<PlacedCell>, colours: GrowthColours) -> Self {
-        let entry = |line: &RegionLine| {
-            let key = Key {
-                marker: line.is_dotted.then_some(Marker::Disc),
-                colour: BLACK,
-                line: (!line.is_dotted).then_some(LINE_WIDTH),
-            };
-            (key, line.name.clone())
+impl RegionLine {
+    /// Its entry in the legend.
+    pub(super) fn entry(&self) -> (Key, String) {
+        let key = Key {
+            marker: self.is_dotted.then_some(Marker::Disc),
+            colour: BLACK,
+            line: (!self.is_dotted).then_some(LINE_WIDTH),
         };
-        Self {
-            plot,
-            cells,
-            colours,
-            legend: Legend::new(plot.lines.iter().map(entry), units(PICTURE_WIDTH)),
-            tiling: Tiling::new(1),
-        }
+        (key, self.name.clone())
     }
 }
 
-fn draw_line<DB: Surface>(inside: &Panel<DB>, line: &RegionLine) -> Drawn<DB> {
+pub(super) fn draw_line<DB: Surface>(inside: &Panel<DB>, line: &RegionLine) -> Drawn<DB> {
     for run in clipped(&line.points, &inside.x, &inside.y) {
         let corners: Vec<(i32, i32)> = run.into_iter().map(|(x, y)| inside.at(x, y)).collect();
         if !line.is_dotted {
@@ -132,7 +80,7 @@ fn dots(corners: &[(i32, i32)], distance: f64) -> Vec<(i32, i32)> {
     dots
 }
 
-fn draw_point<DB: Surface>(inside: &Panel<DB>, point: &NamedPoint) -> Drawn<DB> {
+pub(super) fn draw_point<DB: Surface>(inside: &Panel<DB>, point: &NamedPoint) -> Drawn<DB> {
     let (x, y) = point.place;
     let is_inside = |share: f64| (0.0..=1.0).contains(&share);
     if !(is_inside(inside.x.position(x)) && is_inside(inside.y.position(y))) {
@@ -146,29 +94,4 @@ fn draw_point<DB: Surface>(inside: &Panel<DB>, point: &NamedPoint) -> Drawn<DB> 
     let gap = units(NAME_GAP);
     let at = (centre.0 + gap, centre.1 - gap / 2);
     inside.area.draw_text(&point.name, &style, at)
-}
-
-impl Picture for Layout<'_> {
-    fn size(&self) -> (u32, u32) {
-        let height = self.legend.height() + self.tiling.height();
-        (PICTURE_WIDTH as u32, height.ceil() as u32)
-    }
-
-    fn draw<DB: Surface>(&self, area: &DrawingArea<DB, Shift>) -> Drawn<DB> {
-        let (head, rest) = area.split_vertically(units(self.legend.height()));
-        self.legend.draw(&head)?;
-        let (width, height) = rest.dim_in_pixel();
-        let (panel, bar) = rest.split_horizontally(width as i32 - self.colours.width());
-        let (above, _) = bar.split_vertically(height as i32 - units(room_below()));
-        let (_, bar) = above.split_vertically(units(room_above(&self.plot.panel.title)));
-        self.colours.draw(&bar, &self.plot.growth_label)?;
-
-        let inside = panel_of(&panel, &self.plot.panel)?;
-        draw_colours(&inside, &self.colours, &self.cells)?;
-        let mut lines = self.plot.lines.iter();
-        lines.try_for_each(|line| draw_line(&inside, line))?;
-        let mut points = self.plot.points.iter();
-        points.try_for_each(|point| draw_point(&inside, point))?;
-        inside.frame()
-    }
 }

@@ -1,3 +1,5 @@
+use super::axis::Reach;
+
 /// How an axis turns values into lengths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
@@ -33,12 +35,14 @@ impl Scale {
 
     /// Smallest and largest value that can be drawn, `None` without any.
     pub(super) fn extent(self, values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-        values
-            .filter(|value| self.holds(*value))
-            .fold(None, |extent, value| match extent {
-                None => Some((value, value)),
-                Some((least, greatest)) => Some((least.min(value), greatest.max(value))),
-            })
+        extent(values.filter(|value| self.holds(*value)))
+    }
+
+    /// What an axis of this scale shows of these values, with a margin at both ends as a share of its length.
+    pub(super) fn reach(self, values: impl Iterator<Item = f64>, margin: f64) -> Reach {
+        let extent = self.extent(values);
+        let range = extent.map(|extent| padded(self.range(extent), margin));
+        (self, range)
     }
 
     /// Range of the uniform coordinate that shows an extent of values, widened if that is (nearly) a single value.
@@ -55,8 +59,16 @@ impl Scale {
     }
 }
 
+/// Smallest and largest value, `None` without any.
+pub(super) fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    values.fold(None, |extent, value| match extent {
+        None => Some((value, value)),
+        Some((least, greatest)) => Some((f64::min(least, value), f64::max(greatest, value))),
+    })
+}
+
 /// The range with a margin at both ends, as a share of its length.
-pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
+fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     let margin = share * (high - low);
     (low - margin, high + margin)
 }

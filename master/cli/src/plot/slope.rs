@@ -1,5 +1,6 @@
 use super::canvas::{Drawn, Surface};
 use super::panel::Panel;
+use super::scale::extent;
 use super::slope_label::{Label, Line};
 use super::style::{REFERENCE, stroke};
 
@@ -96,13 +97,6 @@ fn reference_line<DB: Surface>(
             cut(panel, rise, top - rise * corner, (left, right))
         }
     }
-}
-
-fn extent(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
-    values.fold(None, |extent, value| match extent {
-        None => Some((value, value)),
-        Some((least, greatest)) => Some((f64::min(least, value), f64::max(greatest, value))),
-    })
 }
 
 /// The part of the line `y = offset + rise x` over the interval that lies inside the panel.

@@ -100,8 +100,8 @@ mod tests {
 
     fn axes(x: (f64, f64), y: (f64, f64)) -> (Axis, Axis) {
         (
-            Axis::horizontal(Scale::Linear, x, 4000),
-            Axis::vertical(Scale::Linear, y, 1000),
+            Axis::horizontal((Scale::Linear, Some(x)), 4000),
+            Axis::vertical((Scale::Linear, Some(y)), 1000),
         )
     }
 

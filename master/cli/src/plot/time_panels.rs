@@ -1,25 +1,26 @@
-use std::path::Path;
-
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
-use super::canvas::{Drawn, Picture, Surface, embed_font, svg, write};
-use super::curve::{self, LINE_WIDTH, Spread, names_to_tell_apart};
+use super::canvas::{Drawn, Picture, Pictured, Surface};
+use super::curve::{self, Curve, LINE_WIDTH, Spread, drawable, names_to_tell_apart};
 use super::error::PlotError;
 use super::legend::{Legend, curve_keys};
 use super::panel::{
     Axes, Panel, RIGHT_MARGIN, height_for_label, room_above, room_below, room_left,
 };
 use super::portrait::{self, Portrait};
-use super::scale::{Scale, padded};
+use super::scale::Scale;
 use super::style::{FRAME, TITLE_TEXT, fitted, text, units};
 use super::thinning::thinned;
 use super::tiling::{PICTURE_WIDTH, Tiling, check_number};
 use super::time_marks::TimeMarks;
 
-/// Quantities over a common time axis, one panel above the other, and below them panels over other quantities.
+/// Quantities over a common time axis, one panel above the other, and below them panels over other quantities. A legend
+/// is added if a panel has several curves.
+///
+/// Long series are thinned out to the extremes within each pixel column, which does not change the picture.
 #[derive(Clone, Debug, Default)]
 pub struct TimePanels {
     /// Title of the picture.
@@ -41,47 +42,16 @@ pub struct TimePanel {
     pub y_label: String,
     /// Scale of the y axis.
     pub y_scale: Scale,
-    /// Curves; equal names in several panels have equal colours.
-    pub series: Vec<TimeSeries>,
+    /// Curves over times that do not decrease.
+    pub series: Vec<Curve>,
 }
 
-/// One quantity over time.
-#[derive(Clone, Debug)]
-pub struct TimeSeries {
-    /// Name in the legend.
-    pub name: String,
-    /// Times, not decreasing.
-    pub t: Vec<f64>,
-    /// One value for each time.
-    pub y: Vec<f64>,
-}
-
-/// Writes `STEM.svg` and `STEM.png` with all panels above each other. A legend is added if a panel has several series.
-///
-/// Long series are thinned out to the extremes within each pixel column, which does not change the picture.
-///
-/// # Errors
-/// [`PlotError`]: lengths of `t` and `y` differ, times decrease, too many panels, no point to draw, unwritable path.
-pub fn time_panels(plot: &TimePanels, stem: &Path) -> Result<(), PlotError> {
-    write(&checked_layout(plot, stem)?, stem)
-}
-
-/// The same picture as the text of an SVG, for a page; `name` is its name in errors.
-///
-/// # Errors
-/// [`PlotError`], as for [`time_panels`], but for the path.
-pub fn time_panels_svg(plot: &TimePanels, name: &str) -> Result<String, PlotError> {
-    let stem = Path::new(name);
-    svg(&checked_layout(plot, stem)?, stem)
-}
-
-fn checked_layout<'a>(plot: &'a TimePanels, stem: &Path) -> Result<Layout<'a>, PlotError> {
-    embed_font()?;
-    check_number(plot.panels.len() + plot.portraits.len())?;
-    all_series(plot).try_for_each(checked)?;
-    Layout::new(plot).ok_or_else(|| PlotError::NoData {
-        stem: stem.to_path_buf(),
-    })
+impl Pictured for TimePanels {
+    fn picture(&self) -> Result<Option<impl Picture>, PlotError> {
+        check_number(self.panels.len() + self.portraits.len())?;
+        all_series(self).try_for_each(check_times)?;
+        Ok(Layout::new(self))
+    }
 }
 
 const TITLE_HEIGHT: f64 = 42.0;
@@ -93,59 +63,37 @@ const Y_MARGIN: f64 = 0.06;
 const COLUMNS: usize = 1000;
 const COLUMNS_OF_ALL_SERIES: usize = 5500;
 
-fn all_series(plot: &TimePanels) -> impl Iterator<Item = &TimeSeries> {
+fn all_series(plot: &TimePanels) -> impl Iterator<Item = &Curve> {
     plot.panels.iter().flat_map(|panel| &panel.series)
 }
 
-fn checked(series: &TimeSeries) -> Result<(), PlotError> {
-    if series.t.len() != series.y.len() {
-        let (times, values) = (series.t.len(), series.y.len());
-        return Err(PlotError::UnequalLengths {
-            series: series.name.clone(),
-            times,
-            values,
-        });
-    }
-    match series.t.windows(2).position(|pair| pair[1] < pair[0]) {
+fn check_times(series: &Curve) -> Result<(), PlotError> {
+    let points = &series.points;
+    match points.windows(2).position(|pair| pair[1].0 < pair[0].0) {
         None => Ok(()),
         Some(before) => Err(PlotError::TimeDecreases {
             series: series.name.clone(),
             index: before + 1,
-            before: series.t[before],
-            time: series.t[before + 1],
+            before: points[before].0,
+            time: points[before + 1].0,
         }),
     }
 }
 
 impl TimePanel {
     fn drawable(&self) -> impl Iterator<Item = (f64, f64)> {
-        let holds = |&(t, y): &(f64, f64)| Scale::Linear.holds(t) && self.y_scale.holds(y);
-        self.series
-            .iter()
-            .flat_map(TimeSeries::points)
-            .filter(holds)
+        drawable(&self.series, [Scale::Linear, self.y_scale])
     }
 
     fn axis(&self) -> Axis {
-        let Some(extent) = self.y_scale.extent(self.drawable().map(|(_, y)| y)) else {
-            return Axis::blank();
-        };
-        let range = padded(self.y_scale.range(extent), Y_MARGIN);
-        Axis::vertical(self.y_scale, range, units(self.height() - room_above("")))
-    }
-
-    fn names(&self) -> Vec<&str> {
-        self.series.iter().map(|own| own.name.as_str()).collect()
+        let reach = self
+            .y_scale
+            .reach(self.drawable().map(|(_, y)| y), Y_MARGIN);
+        Axis::vertical(reach, units(self.height() - room_above("")))
     }
 
     fn height(&self) -> f64 {
         PANEL_HEIGHT.max(room_above("") + height_for_label(&self.y_label, HIGHEST_PANEL))
-    }
-}
-
-impl TimeSeries {
-    fn points(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.t.iter().copied().zip(self.y.iter().copied())
     }
 }
 
@@ -163,23 +111,22 @@ struct Layout<'a> {
 impl<'a> Layout<'a> {
     fn new(plot: &'a TimePanels) -> Option<Self> {
         let drawable = plot.panels.iter().flat_map(TimePanel::drawable);
-        let times = Scale::Linear.extent(drawable.map(|(t, _)| t));
-        if times.is_none() && !plot.portraits.iter().any(Portrait::is_drawable) {
+        let times = Scale::Linear.reach(drawable.map(|(t, _)| t), 0.0);
+        if times.1.is_none() && !plot.portraits.iter().any(Portrait::is_drawable) {
             return None;
         }
         let values: Vec<Axis> = plot.panels.iter().map(TimePanel::axis).collect();
         let left = values.iter().map(room_left).max().unwrap_or(0);
         let width = units(PICTURE_WIDTH - RIGHT_MARGIN) - left;
-        let time = times.map_or_else(Axis::blank, |times| {
-            Axis::horizontal(Scale::Linear, Scale::Linear.range(times), width)
-        });
-        let panels = plot.panels.iter().map(TimePanel::names);
-        let names = names_to_tell_apart(panels.chain(plot.portraits.iter().map(Portrait::names)));
-        let marks = times.and_then(|_| plot.marks.entry(&time));
+        let time = Axis::horizontal(times, width);
+        let panels = plot.panels.iter().map(|panel| &panel.series[..]);
+        let portraits = plot.portraits.iter().map(|portrait| &portrait.paths[..]);
+        let names = names_to_tell_apart(panels.chain(portraits));
+        let marks = times.1.and_then(|_| plot.marks.entry(&time));
         let entries = curve_keys(&names, LINE_WIDTH).chain(marks);
         Some(Self {
             plot,
-            legend: Legend::new(entries, units(PICTURE_WIDTH)),
+            legend: Legend::new(entries),
             names,
             time,
             values,
@@ -211,14 +158,17 @@ impl<'a> Layout<'a> {
             return inside.note_no_data();
         }
         self.plot.marks.draw(&inside)?;
-        panel
-            .series
-            .iter()
-            .try_for_each(|series| self.draw_series(&inside, series))
+        let mut series = panel.series.iter();
+        series.try_for_each(|series| self.draw_series(&inside, series))
     }
 
-    fn draw_series<DB: Surface>(&self, inside: &Panel<DB>, series: &TimeSeries) -> Drawn<DB> {
-        let runs = thinned(series.points(), &inside.x, &inside.y, self.columns);
+    fn draw_series<DB: Surface>(&self, inside: &Panel<DB>, series: &Curve) -> Drawn<DB> {
+        let runs = thinned(
+            series.points.iter().copied(),
+            &inside.x,
+            &inside.y,
+            self.columns,
+        );
         let name = (series.name.as_str(), &self.names[..]);
         curve::draw(inside, runs, name, Spread::AlongAxis)
     }

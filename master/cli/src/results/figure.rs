@@ -7,9 +7,7 @@ use linchpin_master::scene::{Panel, Scene};
 
 use super::{Impacts, RunReport, Trace};
 use crate::commands::CommandError;
-use crate::plot::{
-    self, Portrait, Scale, TimeMarks, TimePanel, TimePanels, TimeSeries, time_panels,
-};
+use crate::plot::{Chart, Curve, Portrait, Scale, TimeMarks, TimePanel, TimePanels};
 
 /// The panels of a scene that names none; those without curves are left out.
 const USUAL: [(&str, Drawn); 4] = [
@@ -52,7 +50,7 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
             None => picture.panels.push(TimePanel {
                 y_label,
                 y_scale: Scale::Linear,
-                series: curves.into_iter().map(over_time).collect(),
+                series: curves,
             }),
             Some(over) => picture.portraits.push(Portrait {
                 x_label: over.label.clone(),
@@ -64,20 +62,11 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
     if picture.panels.is_empty() && picture.portraits.is_empty() {
         return Ok(());
     }
-    Ok(time_panels(&picture, stem)?)
-}
-
-fn over_time(curve: plot::Path) -> TimeSeries {
-    let (t, y) = curve.points.into_iter().unzip();
-    TimeSeries {
-        name: curve.name,
-        t,
-        y,
-    }
+    Ok(picture.write(stem)?)
 }
 
 /// The curves of one panel.
-fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<plot::Path> {
+fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<Curve> {
     let is_single = reports.len() == 1;
     let is_usual = scene.output.panels.is_empty();
     let is_over_time = is_usual || scene.output.panels[panel].over.is_none();
@@ -108,7 +97,7 @@ fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<plot::Pa
                 Some(case) if is_only => case.name.clone(),
                 Some(case) => format!("{}: {}", trace.name, case.name),
             };
-            plot::Path { name, points }
+            Curve { name, points }
         }));
     }
     curves
@@ -123,27 +112,11 @@ fn middle_of_step(scene: &Scene, trace: &Trace) -> f64 {
     }
 }
 
-/// A series of the picture with the places of its columns in a row: their sum over another sum.
-pub(super) struct Traced {
-    over: Vec<usize>,
-    curve: Vec<usize>,
-    pub trace: Trace,
-}
-
-impl Traced {
-    /// Takes the values of a row.
-    pub fn record(&mut self, values: &[f64]) {
-        let sum = |places: &[usize]| places.iter().map(|place| values[*place]).sum();
-        let (over, curve) = (&self.over, &self.curve);
-        self.trace.points.push(|| (sum(over), sum(curve)));
-    }
-}
-
 /// Place of the time in a row.
 const TIME: usize = 0;
 
 /// The series of the picture, still empty.
-pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Traced> {
+pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Trace> {
     if scene.output.panels.is_empty() {
         return usual_traces(row);
     }
@@ -157,26 +130,21 @@ pub(super) fn traces(scene: &Scene, row: &Row) -> Vec<Traced> {
         own.curves.iter().map(move |curve| {
             let places = places_of(curve);
             let shows_multipliers = places.iter().any(is_multiplier);
-            Traced {
-                over: over.clone(),
-                trace: Trace::new(curve.join(" + "), panel, shows_multipliers),
-                curve: places,
-            }
+            let places = [over.clone(), places];
+            Trace::new(curve.join(" + "), panel, shows_multipliers, places)
         })
     });
     traced.collect()
 }
 
-fn usual_traces(row: &Row) -> Vec<Traced> {
+fn usual_traces(row: &Row) -> Vec<Trace> {
     let columns = row.columns().iter().enumerate();
     let traced = |(place, name): (usize, &String)| {
         let drawn = row.drawn(place)?;
         let panel = USUAL.iter().position(|(_, kind)| *kind == drawn)?;
-        Some(Traced {
-            over: vec![TIME],
-            curve: vec![place],
-            trace: Trace::new(name.clone(), panel, drawn == Drawn::Multiplier),
-        })
+        let shows_multipliers = drawn == Drawn::Multiplier;
+        let places = [vec![TIME], vec![place]];
+        Some(Trace::new(name.clone(), panel, shows_multipliers, places))
     };
     columns.filter_map(traced).collect()
 }

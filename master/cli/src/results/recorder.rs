@@ -4,19 +4,20 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::ProgressBar;
 use linchpin_master::results::Mechanism;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
-use super::figure::{Traced, traces};
-use super::{Impacts, RunReport};
+use super::figure::traces;
+use super::{Impacts, RunReport, Trace};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
 use crate::commands::common::remove_stale;
 use crate::error_norm::ErrorMeter;
+use crate::progress;
 use crate::simulate::Recorder;
 
 /// Writes `results.csv` and collects what report and picture need.
@@ -26,20 +27,20 @@ pub struct RunRecorder {
     folder: PathBuf,
     stale: Vec<PathBuf>,
     table: Option<csv::Writer<File>>,
-    closed_form: Option<ClosedForm>,
     errors: Option<ErrorMeter>,
     scene: Scene,
-    traces: Vec<Traced>,
+    traces: Vec<Trace>,
     impacts: Option<Impacts>,
     motion: Option<Motion>,
     bar: ProgressBar,
-    t_start: f64,
-    t_end: f64,
     started: Instant,
 }
 
 /// The table of results.
 const TABLE: &str = "results.csv";
+
+/// The progress bar.
+const BAR: &str = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
 
 /// Parts of the simulated time that the progress bar counts.
 const BAR_LENGTH: u64 = 10_000;
@@ -55,19 +56,12 @@ impl RunRecorder {
             folder: folder.to_owned(),
             stale,
             table: None,
-            closed_form: ClosedForm::of(scene),
             errors: None,
             scene: scene.clone(),
             traces: Vec::new(),
             impacts: None,
             motion: None,
-            bar: if shows_progress {
-                bar()
-            } else {
-                ProgressBar::hidden()
-            },
-            t_start: scene.t_start,
-            t_end: scene.t_end,
+            bar: progress::bar(BAR_LENGTH, BAR, shows_progress),
             started: Instant::now(),
         }
     }
@@ -77,14 +71,12 @@ impl RunRecorder {
         self.bar.finish_and_clear();
         if let Some(table) = &mut self.table {
             let path = self.folder.join(TABLE);
-            table
-                .flush()
-                .map_err(|source| CommandError::Unwritable { path, source })?;
+            table.flush().map_err(CommandError::unwritable(&path))?;
         }
         Ok(RunReport {
             statistics,
             errors: self.errors,
-            traces: self.traces.into_iter().map(|own| own.trace).collect(),
+            traces: self.traces,
             impacts: self.impacts,
             motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
@@ -104,8 +96,7 @@ impl RunRecorder {
             remove_stale(path)?;
         }
         let path = self.folder.join(TABLE);
-        let file = File::create(&path);
-        let file = file.map_err(|source| CommandError::Unwritable { path, source })?;
+        let file = File::create(&path).map_err(CommandError::unwritable(&path))?;
         self.table = Some(csv::Writer::from_writer(file));
         Ok(())
     }
@@ -121,16 +112,6 @@ impl RunRecorder {
     }
 }
 
-fn bar() -> ProgressBar {
-    let template = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
-    let bar = ProgressBar::new(BAR_LENGTH);
-    match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style),
-        // The template is fixed; the plain style still shows how far the run is.
-        Err(_) => bar,
-    }
-}
-
 impl Recorder for RunRecorder {
     type Error = CommandError;
 
@@ -142,17 +123,15 @@ impl Recorder for RunRecorder {
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
         self.traces = traces(&self.scene, row);
         self.impacts = Some(Impacts::of(&self.scene, row));
-        self.errors = self
-            .closed_form
-            .take()
-            .map(|closed_form| ErrorMeter::new(closed_form, row));
+        let closed_form = ClosedForm::of(&self.scene);
+        self.errors = closed_form.map(|closed_form| ErrorMeter::new(closed_form, row));
         self.open_table()?;
         self.write(row.columns())
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
-        for traced in &mut self.traces {
-            traced.record(row.values());
+        for trace in &mut self.traces {
+            trace.record(row.values());
         }
         if let Some(impacts) = &mut self.impacts {
             impacts.record(row.values());
@@ -168,11 +147,12 @@ impl Recorder for RunRecorder {
     }
 
     fn progress(&mut self, t: f64) {
-        if self.bar.is_hidden() || (t < self.t_end && self.bar.elapsed() < REFRESH) {
+        let Scene { t_start, t_end, .. } = self.scene;
+        if self.bar.is_hidden() || (t < t_end && self.bar.elapsed() < REFRESH) {
             return;
         }
-        let speed = (t - self.t_start) / self.started.elapsed().as_secs_f64();
-        let share = (t - self.t_start) / (self.t_end - self.t_start);
+        let speed = (t - t_start) / self.started.elapsed().as_secs_f64();
+        let share = (t - t_start) / (t_end - t_start);
         self.bar.set_position((share * BAR_LENGTH as f64) as u64);
         self.bar
             .set_message(format!("{t:.4} s ({speed:.3} x real time)"));

@@ -3,7 +3,6 @@
 mod contacts;
 
 use std::fmt::Write;
-use std::fs;
 use std::path::Path;
 
 use linchpin_master::results::{DegreeStatistics, Statistics, StepStatistics};
@@ -15,6 +14,7 @@ use crate::animation::Motion;
 use crate::commands::CommandError;
 use crate::commands::common::SceneArguments;
 use crate::error_norm::ErrorMeter;
+use crate::files::write_text;
 
 /// What a finished run tells.
 pub struct RunReport {
@@ -69,10 +69,6 @@ impl RunReport {
         case: Option<&str>,
         path: &Path,
     ) -> Result<(), CommandError> {
-        let unwritable = |source| CommandError::Unwritable {
-            path: path.to_owned(),
-            source,
-        };
         let json = Json {
             linchpin: env!("CARGO_PKG_VERSION"),
             scene: &scene.name,
@@ -97,8 +93,10 @@ impl RunReport {
                 .collect(),
         };
         let text = serde_json::to_string_pretty(&json).map_err(std::io::Error::from);
-        text.and_then(|text| fs::write(path, text + "\n"))
-            .map_err(unwritable)
+        write_text(
+            path,
+            &(text.map_err(CommandError::unwritable(path))? + "\n"),
+        )
     }
 
     /// A summary of about a dozen lines.

@@ -7,8 +7,8 @@ use linchpin_models::nonsmooth::spectrum::Spectrum;
 
 use super::{CurveSpectra, RegionCell};
 use crate::plot::{
-    Curve, CurvePanel, CurvePlot, MapAxis, MapCell, MapPanel, NamedPoint, PlotError, RegionLine,
-    RegionPlot, Scale, Verdict, curves, region,
+    Chart, Curve, CurvePanel, CurvePlot, MapAxis, MapCell, MapPanel, Markers, NamedPoint,
+    PlotError, RegionLine, Scale, StabilityMap, Verdict,
 };
 
 /// What the picture shows of radii: explicit schemes go far beyond.
@@ -28,27 +28,27 @@ pub fn draw_curves(
 ) -> Result<(), PlotError> {
     let first = file.sweep.first().copied().unwrap_or_default();
     let last = file.sweep.last().copied().unwrap_or_default();
-    let panels = vec![
-        CurvePanel {
-            title: String::new(),
-            x_label: "dt / T".to_owned(),
-            y_label: "spectral radius".to_owned(),
-            x_scale: Scale::Logarithmic,
-            x_range: Some((first, last)),
-            y_range: Some(RADII),
-            curves: curves_of(found, |spectrum| Some(spectrum.radius)),
-        },
-        CurvePanel {
-            title: String::new(),
-            x_label: "dt / T".to_owned(),
-            y_label: "relative period error".to_owned(),
-            x_scale: Scale::Linear,
-            x_range: Some((0.0, file.period_to)),
-            y_range: None,
-            curves: curves_of(found, Spectrum::period_error),
-        },
-    ];
-    curves(&CurvePlot { panels }, stem)
+    let radii = CurvePanel {
+        title: String::new(),
+        x_label: "dt / T".to_owned(),
+        y_label: "spectral radius".to_owned(),
+        scales: [Scale::Logarithmic, Scale::Linear],
+        x_range: Some((first, last)),
+        y_range: Some(RADII),
+        curves: curves_of(found, |spectrum| Some(spectrum.radius)),
+        markers: Markers::Spread,
+        reference_slopes: Vec::new(),
+    };
+    let period_errors = CurvePanel {
+        y_label: "relative period error".to_owned(),
+        scales: [Scale::Linear; 2],
+        x_range: Some((0.0, file.period_to)),
+        y_range: None,
+        curves: curves_of(found, Spectrum::period_error),
+        ..radii.clone()
+    };
+    let panels = vec![radii, period_errors];
+    CurvePlot { panels }.write(stem)
 }
 
 fn curves_of(found: &[CurveSpectra], value: impl Fn(&Spectrum) -> Option<f64>) -> Vec<Curve> {
@@ -83,27 +83,30 @@ pub fn draw_region(
         name: point.label.clone(),
         place: (point.alpha_m, point.alpha_f),
     };
-    let plot = RegionPlot {
-        panel: MapPanel {
-            title: String::new(),
-            x: axis("alpha_m", &settings.alpha_m),
-            y: axis("alpha_f", &settings.alpha_f),
-            cells: cells.iter().map(cell_of).collect(),
-        },
+    let panel = MapPanel {
+        title: String::new(),
+        x: axis("alpha_m", &settings.alpha_m),
+        y: axis("alpha_f", &settings.alpha_f),
+        cells: cells.iter().map(cell_of).collect(),
+    };
+    let plot = StabilityMap {
+        panels: vec![panel],
+        has_marks: false,
         growth_label: format!("spectral radius for infinite frequency, up to {MOST_GROWTH}"),
         lines: lines(settings),
         points: settings.points.iter().map(point).collect(),
     };
-    region(&plot, stem)
+    plot.write(stem)
 }
 
 fn cell_of(cell: &RegionCell) -> MapCell {
-    let (verdict, growth) = match cell.growth.is_stable() {
-        true => (Verdict::Stable, cell.growth.at_infinity.min(1.0)),
-        false => (Verdict::Unstable, cell.growth.largest.min(MOST_GROWTH)),
+    let is_stable = cell.growth.is_stable();
+    let growth = match is_stable {
+        true => cell.growth.at_infinity.min(1.0),
+        false => cell.growth.largest.min(MOST_GROWTH),
     };
     MapCell {
-        verdict,
+        verdict: Verdict::of(is_stable),
         growth: Some(growth),
     }
 }

@@ -1,12 +1,12 @@
 //! Spectra as tables.
 
 use std::fmt::Write;
-use std::path::Path;
 
 use linchpin_models::nonsmooth::spectrum::Spectrum;
 use serde::Serialize;
 
 use super::{CurveSpectra, RegionCell};
+use crate::plot::Verdict;
 
 /// A radius up to `1 + ROUNDING` counts as stable.
 const ROUNDING: f64 = 1e-6;
@@ -32,46 +32,29 @@ struct RegionRecord {
     verdict: &'static str,
 }
 
-/// Writes a row for each scheme and step.
-///
-/// # Errors
-/// The path cannot be written to.
-pub fn write_curves(curves: &[CurveSpectra], path: &Path) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_path(path)?;
-    for curve in curves {
-        for spectrum in &curve.spectra {
-            table.serialize(Record {
-                curve: &curve.label,
-                dt_over_period: spectrum.dt_over_period,
-                spectral_radius: spectrum.radius,
-                principal_modulus: spectrum.principal_modulus(),
-                relative_period_error: spectrum.period_error(),
-                damping_ratio: spectrum.damping_ratio(),
-            })?;
-        }
-    }
-    Ok(table.flush()?)
+/// A row of `spectrum.csv` for each scheme and step.
+pub fn curve_rows(curves: &[CurveSpectra]) -> impl Iterator<Item = impl Serialize> {
+    curves.iter().flat_map(|curve| {
+        curve.spectra.iter().map(|spectrum| Record {
+            curve: &curve.label,
+            dt_over_period: spectrum.dt_over_period,
+            spectral_radius: spectrum.radius,
+            principal_modulus: spectrum.principal_modulus(),
+            relative_period_error: spectrum.period_error(),
+            damping_ratio: spectrum.damping_ratio(),
+        })
+    })
 }
 
-/// Writes a row for each point.
-///
-/// # Errors
-/// The path cannot be written to.
-pub fn write_region(cells: &[RegionCell], path: &Path) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_path(path)?;
-    for cell in cells {
-        table.serialize(RegionRecord {
-            alpha_m: cell.alpha_m,
-            alpha_f: cell.alpha_f,
-            largest_radius: cell.growth.largest,
-            radius_at_infinity: cell.growth.at_infinity,
-            verdict: match cell.growth.is_stable() {
-                true => "stable",
-                false => "unstable",
-            },
-        })?;
-    }
-    Ok(table.flush()?)
+/// A row of `region.csv` for each point.
+pub fn region_rows(cells: &[RegionCell]) -> impl Iterator<Item = impl Serialize> {
+    cells.iter().map(|cell| RegionRecord {
+        alpha_m: cell.alpha_m,
+        alpha_f: cell.alpha_f,
+        largest_radius: cell.growth.largest,
+        radius_at_infinity: cell.growth.at_infinity,
+        verdict: Verdict::of(cell.growth.is_stable()).name(),
+    })
 }
 
 /// A line for each scheme, and one for the region.

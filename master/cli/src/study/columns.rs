@@ -37,6 +37,12 @@ impl Column {
     }
 }
 
+/// What a run of the scene itself calls the columns.
+pub fn names(columns: &[Column]) -> Vec<Option<String>> {
+    let names = columns.iter().map(|column| Some(column.name.clone()));
+    names.collect()
+}
+
 /// The result columns of which a name is the sum.
 pub fn terms(name: &str) -> impl Iterator<Item = &str> {
     name.split('+').map(str::trim)

@@ -1,13 +1,8 @@
 //! Errors of one run against the reference.
 
-use std::convert::Infallible;
-
-use linchpin_master::results::Row;
-
-use super::columns::{Column, Kind, places, sum};
+use super::columns::{Column, Kind};
 use super::reference::Reference;
 use crate::error_norm::ColumnError;
-use crate::simulate::Recorder;
 
 /// What an error is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,42 +52,40 @@ impl Errors {
     }
 }
 
-/// Compares every row with the reference.
-pub struct ErrorRecorder<'a> {
+/// Compares a run with the reference.
+pub struct RunErrors<'a> {
     reference: &'a Reference,
     columns: &'a [Column],
-    /// What the run calls the columns.
-    names: Vec<Option<&'a str>>,
-    places: Vec<Option<Vec<usize>>>,
     errors: Vec<ColumnError>,
     at_mid_step: Option<ColumnError>,
     previous: Option<f64>,
 }
 
-impl<'a> ErrorRecorder<'a> {
+impl<'a> RunErrors<'a> {
     /// `are_means`: the multipliers are means over the step.
     pub fn new(reference: &'a Reference, columns: &'a [Column], are_means: bool) -> Self {
-        let names = columns.iter().map(|column| Some(column.name.as_str()));
-        Self::of_names(reference, columns, names.collect(), are_means)
-    }
-
-    /// For a run with other names for the columns; `None` is a column that it does not have.
-    pub fn of_names(
-        reference: &'a Reference,
-        columns: &'a [Column],
-        names: Vec<Option<&'a str>>,
-        are_means: bool,
-    ) -> Self {
         let knows_mid_steps = reference.is_dense();
         Self {
             reference,
             columns,
-            names,
-            places: Vec::new(),
             errors: vec![ColumnError::default(); columns.len()],
             at_mid_step: (are_means && knows_mid_steps).then(ColumnError::default),
             previous: None,
         }
+    }
+
+    /// Takes the values of the columns at time `t`.
+    pub fn add(&mut self, t: f64, values: &[Option<f64>]) {
+        for (column, value) in values.iter().enumerate() {
+            let Some(value) = *value else { continue };
+            if let Some(exact) = self.reference.value(column, t) {
+                self.errors[column].add(value, exact);
+            }
+            if let (Kind::Multiplier, Some(previous)) = (self.columns[column].kind, self.previous) {
+                self.add_mid_step(column, value, f64::midpoint(previous, t));
+            }
+        }
+        self.previous = Some(t);
     }
 
     /// The errors so far.
@@ -119,33 +112,5 @@ impl<'a> ErrorRecorder<'a> {
         {
             error.add(value, exact);
         }
-    }
-}
-
-impl Recorder for ErrorRecorder<'_> {
-    type Error = Infallible;
-
-    fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
-        let names = self.names.iter();
-        self.places = names.map(|name| places(row, (*name)?)).collect();
-        Ok(())
-    }
-
-    fn record(&mut self, row: &Row) -> Result<(), Infallible> {
-        let t = row.values()[0];
-        for column in 0..self.columns.len() {
-            let Some(places) = &self.places[column] else {
-                continue;
-            };
-            let value = sum(row, places);
-            if let Some(exact) = self.reference.value(column, t) {
-                self.errors[column].add(value, exact);
-            }
-            if let (Kind::Multiplier, Some(previous)) = (self.columns[column].kind, self.previous) {
-                self.add_mid_step(column, value, f64::midpoint(previous, t));
-            }
-        }
-        self.previous = Some(t);
-        Ok(())
     }
 }

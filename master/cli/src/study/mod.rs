@@ -2,8 +2,7 @@
 //!
 //! * [`converge`]: errors, observed orders and cost over the macro step;
 //! * [`stability`]: stable or not over two settings;
-//! * [`report`]: scenes with many settings, and what their errors cost, on one page;
-//! * [`progress`]: the bar that shows how far a study is.
+//! * [`report`]: scenes with many settings, and what their errors cost, on one page.
 //!
 //! What they share: the columns that are judged, what these are compared with, and the errors.
 
@@ -12,9 +11,9 @@ pub mod converge;
 mod error;
 mod errors;
 mod orders;
-pub mod progress;
 mod reference;
 pub mod report;
+mod run;
 mod runs;
 pub mod stability;
 

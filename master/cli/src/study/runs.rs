@@ -3,13 +3,13 @@
 use std::convert::Infallible;
 
 use linchpin_master::RunError;
-use linchpin_master::results::Statistics;
+use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::{Override, Scene, SceneErrors};
 use linchpin_master::setup::{Connect, Options, describe};
 use linchpin_proto::v1::Model;
 
 use super::StudyError;
-use super::columns::{self, Column};
+use super::columns::{self, Column, places, sum};
 use crate::connect::{Connector, Place};
 use crate::simulate::{Recorder, SimulateError, simulate};
 
@@ -48,6 +48,12 @@ impl Variant {
             case: self.in_words(),
             source,
         }
+    }
+
+    /// Nothing where a run of this variant diverged; an error that has nothing to do with the numbers is given back.
+    pub fn nothing_if_diverged<T>(&self, error: RunError) -> Result<Option<T>, StudyError> {
+        let diverged = divergence(error).map(|_| None);
+        diverged.map_err(|error| self.failed(error))
     }
 
     /// The result columns that studies judge; `models` are those of [`Variant::models`].
@@ -94,6 +100,48 @@ pub fn simulated(
         Ok(statistics) => Ok(Ok(statistics)),
         Err(SimulateError::Run(error)) => divergence(error).map(Err),
         Err(SimulateError::Record(never)) => match never {},
+    }
+}
+
+/// The same; `take` gets the time and the values of the named columns at every macro point, `None` for those that the
+/// run does not have.
+pub fn watched(
+    scene: &Scene,
+    names: &[Option<String>],
+    take: impl FnMut(f64, &[Option<f64>]),
+) -> Result<Result<Statistics, String>, RunError> {
+    let mut watcher = Watcher {
+        names,
+        places: Vec::new(),
+        values: Vec::new(),
+        take,
+    };
+    simulated(scene, &mut watcher)
+}
+
+/// Looks at sums of result columns.
+struct Watcher<'a, F> {
+    names: &'a [Option<String>],
+    places: Vec<Option<Vec<usize>>>,
+    values: Vec<Option<f64>>,
+    take: F,
+}
+
+impl<F: FnMut(f64, &[Option<f64>])> Recorder for Watcher<'_, F> {
+    type Error = Infallible;
+
+    fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
+        let names = self.names.iter();
+        self.places = names.map(|name| places(row, name.as_deref()?)).collect();
+        Ok(())
+    }
+
+    fn record(&mut self, row: &Row) -> Result<(), Infallible> {
+        let value = |places: &Option<Vec<usize>>| Some(sum(row, places.as_deref()?));
+        self.values.clear();
+        self.values.extend(self.places.iter().map(value));
+        (self.take)(row.values()[0], &self.values);
+        Ok(())
     }
 }
 

@@ -1,28 +1,27 @@
 //! The model `bouncing-ball`: a ball above a floor, with Newton's law of impact.
 
-use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use linchpin_proto::v1;
+use linchpin_worker::Setup;
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Model, Setup, Subsystem};
 
 use super::face::{Coordinate, Face, FaceContact, FaceMarker};
 use super::keys::{Key, Parameters, number};
-use super::model::{describe, started};
+use super::model::{NonsmoothModel, Seen, Started, started};
 use super::observed::{Motion, Observer, PointMotion};
 use crate::mechanics::describe::input;
 use crate::nonsmooth::system::MechanicalSystem;
 use crate::nonsmooth::systems::point_mass;
 
 /// A ball that bounces on a floor until it rests.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct BouncingBall;
-
-const NAME: &str = "bouncing-ball";
-const WHAT: &str =
-    "Ball above a floor at the height 0; it bounces with Newton's coefficient of restitution";
+pub const BOUNCING_BALL: NonsmoothModel = NonsmoothModel {
+    name: "bouncing-ball",
+    what: "Ball above a floor at the height 0; it bounces with Newton's coefficient of restitution",
+    keys: KEYS,
+    seen,
+    start,
+};
 
 const KEYS: &[Key] = &[
     number("m", "kg", 1.0, "mass, greater than 0"),
@@ -58,37 +57,18 @@ const KEYS: &[Key] = &[
     ),
 ];
 
-impl Model for BouncingBall {
-    fn describe(&self) -> v1::Model {
-        // The defaults are in their ranges.
-        self.describe_with(&BTreeMap::new()).unwrap_or_default()
-    }
+fn seen(parameters: &Parameters<'_>) -> Seen {
+    Ok((face(), ball(parameters)?.contacts().to_vec()))
+}
 
-    fn describe_with(
-        &self,
-        parameters: &BTreeMap<String, v1::Value>,
-    ) -> Result<v1::Model, SetupError> {
-        let parameters = Parameters::new(KEYS, parameters)?;
-        let system = ball(&parameters)?;
-        Ok(describe(
-            NAME,
-            WHAT,
-            &parameters,
-            system.contacts(),
-            &face(),
-        ))
-    }
-
-    fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
-        let parameters = Parameters::new(KEYS, setup.all_parameters())?;
-        let system = Arc::new(ball(&parameters)?);
-        let picture = Picture {
-            radius: parameters.non_negative("radius")?,
-        };
-        let height = parameters.non_negative("height0")?;
-        let speed = parameters.number("speed0")?;
-        started(system, picture, &face(), [&[height], &[speed]], setup)
-    }
+fn start(parameters: &Parameters<'_>, setup: &Setup) -> Started {
+    let system = Arc::new(ball(parameters)?);
+    let picture = Picture {
+        radius: parameters.non_negative("radius")?,
+    };
+    let height = parameters.non_negative("height0")?;
+    let speed = parameters.number("speed0")?;
+    started(system, picture, &face(), [&[height], &[speed]], setup)
 }
 
 fn ball(parameters: &Parameters<'_>) -> Result<point_mass::BouncingBall, SetupError> {

@@ -1,23 +1,26 @@
 //! The model `mass-chain`: three masses between springs with a stiff end or a constraint (S2 Sect. 2.8).
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use linchpin_proto::v1;
+use linchpin_worker::Setup;
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Model, Setup, Subsystem};
 
 use super::face::{Coordinate, Face, FaceContact};
 use super::keys::{Key, Parameters, absent, number};
-use super::model::{describe, started};
+use super::model::{NonsmoothModel, Seen, Started, started};
 use super::observed::{Motion, Observer};
 use crate::mechanics::describe::{input, output};
 use crate::nonsmooth::system::MechanicalSystem;
 use crate::nonsmooth::systems::masses::{End, Masses};
 
 /// Three masses in a row.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct MassChain;
+pub const MASS_CHAIN: NonsmoothModel = NonsmoothModel {
+    name: "mass-chain",
+    what: "Three masses in a row between springs; the last one on a stiff spring or held by a constraint",
+    keys: KEYS,
+    seen,
+    start,
+};
 
 const KEYS: &[Key] = &[
     number("m1", "kg", 1.0, "first mass, greater than 0"),
@@ -54,38 +57,16 @@ const KEYS: &[Key] = &[
     ),
 ];
 
-impl Model for MassChain {
-    fn describe(&self) -> v1::Model {
-        self.describe_with(&BTreeMap::new()).unwrap_or_default()
-    }
+fn seen(parameters: &Parameters<'_>) -> Seen {
+    let system = masses(parameters)?;
+    Ok((face(&system), system.contacts().to_vec()))
+}
 
-    fn describe_with(
-        &self,
-        parameters: &BTreeMap<String, v1::Value>,
-    ) -> Result<v1::Model, SetupError> {
-        let parameters = Parameters::new(KEYS, parameters)?;
-        let system = masses(&parameters)?;
-        Ok(describe(
-            "mass-chain",
-            "Three masses in a row between springs; the last one on a stiff spring or held by a constraint",
-            &parameters,
-            system.contacts(),
-            &face(&system),
-        ))
-    }
-
-    fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
-        let parameters = Parameters::new(KEYS, setup.all_parameters())?;
-        let system = masses(&parameters)?;
-        let face = face(&system);
-        started(
-            Arc::new(system),
-            Accelerations,
-            &face,
-            [&[0.0; 3], &[0.0; 3]],
-            setup,
-        )
-    }
+fn start(parameters: &Parameters<'_>, setup: &Setup) -> Started {
+    let system = masses(parameters)?;
+    let face = face(&system);
+    let at_rest: [&[f64]; 2] = [&[0.0; 3], &[0.0; 3]];
+    started(Arc::new(system), Accelerations, &face, at_rest, setup)
 }
 
 fn masses(parameters: &Parameters<'_>) -> Result<Masses, SetupError> {

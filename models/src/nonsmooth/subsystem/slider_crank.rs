@@ -9,15 +9,13 @@ mod parameters;
 mod picture;
 mod rigid;
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use linchpin_proto::v1;
+use linchpin_worker::Setup;
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Model, Setup, Subsystem};
 
 use super::keys::{Parameters, refused};
-use super::model::{describe, started};
+use super::model::{NonsmoothModel, Seen, Started, started};
 use crate::nonsmooth::system::{Contact, MechanicalSystem};
 use crate::nonsmooth::systems::flexible_slider_crank::FlexibleSliderCrank;
 use crate::nonsmooth::systems::rigid_slider_crank::RigidSliderCrank;
@@ -27,12 +25,14 @@ use parameters::{KEYS, START, mechanism, numbers};
 use picture::{Picture, drawn};
 use rigid::Rigid;
 
-const NAME: &str = "slider-crank";
-const WHAT: &str = "Slider-crank mechanism, rigid or with a flexible rod; the slider impacts and rubs in its notch";
-
 /// The slider-crank mechanism of Flores, Leine & Glocker and of S2.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct SliderCrank;
+pub const SLIDER_CRANK: NonsmoothModel = NonsmoothModel {
+    name: "slider-crank",
+    what: "Slider-crank mechanism, rigid or with a flexible rod; the slider impacts and rubs in its notch",
+    keys: KEYS,
+    seen,
+    start,
+};
 
 /// Only what a scene needs is assembled.
 enum System {
@@ -76,38 +76,23 @@ impl System {
     }
 }
 
-impl Model for SliderCrank {
-    fn describe(&self) -> v1::Model {
-        // The defaults are in their ranges.
-        self.describe_with(&BTreeMap::new()).unwrap_or_default()
-    }
+fn seen(parameters: &Parameters<'_>) -> Seen {
+    let face = face(parameters)?;
+    Ok((face, System::of(parameters)?.contacts().to_vec()))
+}
 
-    fn describe_with(
-        &self,
-        parameters: &BTreeMap<String, v1::Value>,
-    ) -> Result<v1::Model, SetupError> {
-        let parameters = Parameters::new(KEYS, parameters)?;
-        let face = face(&parameters)?;
-        let system = System::of(&parameters)?;
-        Ok(describe(NAME, WHAT, &parameters, system.contacts(), &face))
-    }
-
-    fn initialize(&self, setup: &Setup) -> Result<Box<dyn Subsystem>, SetupError> {
-        let parameters = Parameters::new(KEYS, setup.all_parameters())?;
-        let face = face(&parameters)?;
-        let [q, v] = [
-            numbers(&parameters, START[0])?,
-            numbers(&parameters, START[1])?,
-        ];
-        match System::of(&parameters)? {
-            System::Rigid(rigid) => {
-                started(Arc::clone(&rigid.system), rigid, &face, [&q, &v], setup)
-            }
-            System::Flexible(flexible) => {
-                let (q, v) = (flexible.undeformed(q), flexible.undeformed(v));
-                let system = Arc::clone(&flexible.system);
-                started(system, flexible, &face, [&q, &v], setup)
-            }
+fn start(parameters: &Parameters<'_>, setup: &Setup) -> Started {
+    let face = face(parameters)?;
+    let [q, v] = [
+        numbers(parameters, START[0])?,
+        numbers(parameters, START[1])?,
+    ];
+    match System::of(parameters)? {
+        System::Rigid(rigid) => started(Arc::clone(&rigid.system), rigid, &face, [&q, &v], setup),
+        System::Flexible(flexible) => {
+            let (q, v) = (flexible.undeformed(q), flexible.undeformed(v));
+            let system = Arc::clone(&flexible.system);
+            started(system, flexible, &face, [&q, &v], setup)
         }
     }
 }

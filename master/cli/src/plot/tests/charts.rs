@@ -12,26 +12,26 @@ fn oscillation(count: u32) -> TimePanels {
     let noise = |t: f64| 2e-10 * (1e5 * t).sin() * (3.3e4 * t).cos();
     let residual = move |t: f64| 1.3e-9 * (-0.15 * t).exp() * (14.6 * t).sin() + noise(t);
     let positions = vec![
-        series("x₁", times().map(|t| (t, wave(t, 0.0)))),
-        series("x₂", times().map(|t| (t, wave(t, 0.0)))),
-        series("x₁ exact", times().map(|t| (t, wave(t, 0.05)))),
+        curve("x₁", times().map(|t| (t, wave(t, 0.0)))),
+        curve("x₂", times().map(|t| (t, wave(t, 0.0)))),
+        curve("x₁ exact", times().map(|t| (t, wave(t, 0.05)))),
     ];
     over_time(vec![
         time_panel("position x (m)", Scale::Linear, positions),
         time_panel(
             "residual (m)",
             Scale::Linear,
-            vec![series("g", times().map(|t| (t, residual(t))))],
+            vec![curve("g", times().map(|t| (t, residual(t))))],
         ),
         time_panel(
             "|residual| (m)",
             Scale::Logarithmic,
-            vec![series("|g|", times().map(|t| (t, residual(t).abs())))],
+            vec![curve("|g|", times().map(|t| (t, residual(t).abs())))],
         ),
         time_panel(
             "multiplier λ (N)",
             Scale::Linear,
-            vec![series("λ", times().map(|t| (t, 4e5 * wave(t, 1.0))))],
+            vec![curve("λ", times().map(|t| (t, 4e5 * wave(t, 1.0))))],
         ),
     ])
 }
@@ -39,7 +39,7 @@ fn oscillation(count: u32) -> TimePanels {
 #[test]
 fn time_panels_are_small_legible_and_of_one_size_in_both_formats() {
     let directory = Directory::new("time");
-    time_panels(&oscillation(300_007), &directory.stem()).unwrap();
+    oscillation(300_007).write(&directory.stem()).unwrap();
     let svg = directory.svg();
     assert!(svg.bytes < 300_000, "{} bytes", svg.bytes);
     assert_eq!(svg.shown_size(), directory.png_size());
@@ -72,13 +72,10 @@ fn many_series_share_the_bound_on_the_file() {
     let noisy =
         |phase: f64| (0..100_000).map(move |i| (f64::from(i), (phase + 1e3 * f64::from(i)).sin()));
     let all = (0..30)
-        .map(|i| series(&format!("x{i}"), noisy(f64::from(i))))
+        .map(|i| curve(&format!("x{i}"), noisy(f64::from(i))))
         .collect();
-    time_panels(
-        &over_time(vec![time_panel("x", Scale::Linear, all)]),
-        &directory.stem(),
-    )
-    .unwrap();
+    let plot = over_time(vec![time_panel("x", Scale::Linear, all)]);
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     assert!(svg.bytes < 400_000, "{} bytes", svg.bytes);
     svg.assert_legible();
@@ -88,12 +85,9 @@ fn many_series_share_the_bound_on_the_file() {
 fn names_with_markup_arrive_as_text() {
     let directory = Directory::new("markup");
     let points = [(0.0, 1.0), (1.0, 2.0)];
-    let pair = vec![series("a<b & \"c\"", points), series("</svg>", points)];
-    time_panels(
-        &over_time(vec![time_panel("y' > 0", Scale::Linear, pair)]),
-        &directory.stem(),
-    )
-    .unwrap();
+    let pair = vec![curve("a<b & \"c\"", points), curve("</svg>", points)];
+    let plot = over_time(vec![time_panel("y' > 0", Scale::Linear, pair)]);
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     for label in [
         "a&lt;b &amp; &quot;c&quot;",
@@ -117,8 +111,8 @@ fn missing_values_are_gaps() {
         i => f64::from(i),
     };
     let points = (0..100).map(|i| (f64::from(i), value(i)));
-    let panel = time_panel("y", Scale::Linear, vec![series("y", points)]);
-    time_panels(&over_time(vec![panel]), &directory.stem()).unwrap();
+    let panel = time_panel("y", Scale::Linear, vec![curve("y", points)]);
+    over_time(vec![panel]).write(&directory.stem()).unwrap();
     let lengths: Vec<usize> = directory
         .svg()
         .polylines(BLUE)
@@ -138,7 +132,7 @@ fn long_labels_are_neither_cut_nor_on_top_of_each_other() {
         time_panel(
             &long,
             Scale::Linear,
-            vec![series(&long, points), series("b", points)],
+            vec![curve(&long, points), curve("b", points)],
         )
     };
     let plot = TimePanels {
@@ -147,7 +141,7 @@ fn long_labels_are_neither_cut_nor_on_top_of_each_other() {
         panels: vec![panel(), panel()],
         ..TimePanels::default()
     };
-    time_panels(&plot, &directory.stem()).unwrap();
+    plot.write(&directory.stem()).unwrap();
     directory.svg().assert_legible();
 }
 
@@ -160,10 +154,10 @@ fn reference_lines_are_parallel_to_curves_of_their_order() {
         curve("k = 0", steps().map(|h| (h, 5.3 * h))),
         curve("k = 1", steps().map(|h| (h, 37.0 * h * h))),
     ];
-    let plot = ConvergencePlot {
+    let plot = CurvePlot {
         panels: vec![convergence_panel("", curves, &[3.0])],
     };
-    convergence(&plot, &directory.stem()).unwrap();
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();
     assert!(svg.texts().contains(&"slope 3"));
@@ -214,7 +208,7 @@ fn convergence_panels_and_a_work_precision_diagram_are_legible() {
             &[1.0],
         ),
     ];
-    convergence(&ConvergencePlot { panels }, &directory.stem()).unwrap();
+    CurvePlot { panels }.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();
     assert_eq!(svg.shown_size(), directory.png_size());
@@ -255,11 +249,8 @@ fn a_map_has_one_mark_for_each_cell() {
         .filter(|cell| cell.verdict == Verdict::Stable)
         .count();
     assert!((100..525).contains(&stable), "the map shows both: {stable}");
-    let plot = StabilityMap {
-        panels: vec![panel],
-        growth_label: "spectral radius ρ".into(),
-    };
-    map(&plot, &directory.stem()).unwrap();
+    let plot = stability_map(vec![panel], "spectral radius ρ");
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();
     assert!(svg.bytes < 200_000, "{} bytes", svg.bytes);
@@ -300,11 +291,8 @@ fn maps_without_growth_have_no_colour_bar() {
     };
     let panel =
         |title, count| map_panel(title, ratios(count, 1.0, 1e3), ratios(7, 1e-6, 1e-5), cell);
-    let plot = StabilityMap {
-        panels: vec![panel("a", 40), panel("b", 3)],
-        growth_label: "ρ".into(),
-    };
-    map(&plot, &directory.stem()).unwrap();
+    let plot = stability_map(vec![panel("a", 40), panel("b", 3)], "ρ");
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();
     assert!(!svg.texts().contains(&"ρ"));

@@ -4,7 +4,7 @@ fn constant() -> TimePanels {
     over_time(vec![time_panel(
         "y",
         Scale::Linear,
-        vec![series("y", [(0.0, 1.0), (1.0, 1.0)])],
+        vec![curve("y", [(0.0, 1.0), (1.0, 1.0)])],
     )])
 }
 
@@ -20,11 +20,8 @@ fn square(cells: usize) -> MapPanel {
 
 fn map_error(panel: MapPanel) -> PlotError {
     let directory = Directory::new("map-error");
-    let plot = StabilityMap {
-        panels: vec![panel],
-        growth_label: "ρ".into(),
-    };
-    map(&plot, &directory.stem()).unwrap_err()
+    let plot = stability_map(vec![panel], "ρ");
+    plot.write(&directory.stem()).unwrap_err()
 }
 
 #[test]
@@ -32,7 +29,7 @@ fn a_missing_directory_is_named() {
     let stem = std::env::temp_dir()
         .join("linchpin-no-such-directory")
         .join("x");
-    let error = time_panels(&constant(), &stem).unwrap_err();
+    let error = constant().write(&stem).unwrap_err();
     assert!(
         matches!(&error, PlotError::WriteSvg { path, .. } if path.ends_with("x.svg")),
         "{error}"
@@ -47,27 +44,9 @@ fn a_missing_directory_is_named() {
 fn a_directory_in_place_of_the_png_is_named() {
     let directory = Directory::new("png");
     std::fs::create_dir(directory.0.join("H=0.5e-3.png")).unwrap();
-    let error = time_panels(&constant(), &directory.stem()).unwrap_err();
+    let error = constant().write(&directory.stem()).unwrap_err();
     assert!(
         matches!(&error, PlotError::WritePng { path, .. } if path.is_dir()),
-        "{error}"
-    );
-}
-
-#[test]
-fn a_series_without_a_value_for_each_time_is_refused() {
-    let mut plot = constant();
-    plot.panels[0].series[0].y.push(3.0);
-    let error = time_panels(&plot, &std::env::temp_dir().join("unused")).unwrap_err();
-    assert!(
-        matches!(
-            error,
-            PlotError::UnequalLengths {
-                times: 2,
-                values: 3,
-                ..
-            }
-        ),
         "{error}"
     );
 }
@@ -78,9 +57,11 @@ fn times_that_go_backwards_are_refused() {
     let plot = over_time(vec![time_panel(
         "y",
         Scale::Linear,
-        vec![series("y", points)],
+        vec![curve("y", points)],
     )]);
-    let error = time_panels(&plot, &std::env::temp_dir().join("unused")).unwrap_err();
+    let error = plot
+        .write(&std::env::temp_dir().join("unused"))
+        .unwrap_err();
     assert!(
         matches!(error, PlotError::TimeDecreases { index: 3, .. }),
         "{error}"
@@ -91,21 +72,18 @@ fn times_that_go_backwards_are_refused() {
 fn pictures_without_panels_or_with_too_many_are_refused() {
     let stem = std::env::temp_dir().join("unused");
     assert!(matches!(
-        time_panels(&over_time(vec![]), &stem),
+        over_time(vec![]).write(&stem),
         Err(PlotError::NoData { .. })
     ));
     assert!(matches!(
-        convergence(&ConvergencePlot { panels: vec![] }, &stem),
+        CurvePlot { panels: vec![] }.write(&stem),
         Err(PlotError::NoData { .. })
     ));
-    let empty = StabilityMap {
-        panels: vec![],
-        growth_label: String::new(),
-    };
-    assert!(matches!(map(&empty, &stem), Err(PlotError::NoData { .. })));
+    let empty = stability_map(vec![], "");
+    assert!(matches!(empty.write(&stem), Err(PlotError::NoData { .. })));
     let mut crowded = constant();
     crowded.panels = vec![crowded.panels[0].clone(); 13];
-    let error = time_panels(&crowded, &stem).unwrap_err();
+    let error = crowded.write(&stem).unwrap_err();
     assert!(
         matches!(
             error,

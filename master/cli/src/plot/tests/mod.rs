@@ -44,16 +44,7 @@ impl Drop for Directory {
     }
 }
 
-fn series(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> TimeSeries {
-    let (t, y) = points.into_iter().unzip();
-    TimeSeries {
-        name: name.into(),
-        t,
-        y,
-    }
-}
-
-fn time_panel(y_label: &str, y_scale: Scale, series: Vec<TimeSeries>) -> TimePanel {
+fn time_panel(y_label: &str, y_scale: Scale, series: Vec<Curve>) -> TimePanel {
     TimePanel {
         y_label: y_label.into(),
         y_scale,
@@ -70,24 +61,18 @@ fn over_time(panels: Vec<TimePanel>) -> TimePanels {
     }
 }
 
-fn curve(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> ConvergenceCurve {
-    ConvergenceCurve {
+fn curve(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Curve {
+    Curve {
         name: name.into(),
         points: points.into_iter().collect(),
     }
 }
 
-fn convergence_panel(
-    title: &str,
-    curves: Vec<ConvergenceCurve>,
-    slopes: &[f64],
-) -> ConvergencePanel {
-    ConvergencePanel {
+fn convergence_panel(title: &str, curves: Vec<Curve>, slopes: &[f64]) -> CurvePanel {
+    CurvePanel {
         title: title.into(),
-        x_label: "macro step H (s)".into(),
-        y_label: "error of x₁ (m)".into(),
-        curves,
         reference_slopes: slopes.to_vec(),
+        ..CurvePanel::of_errors("macro step H (s)", "error of x₁ (m)", curves)
     }
 }
 
@@ -109,6 +94,16 @@ fn map_panel(
         x: axis("stiffness c (N/m)", x),
         y: axis("damping d (N s/m)", y),
         cells,
+    }
+}
+
+fn stability_map(panels: Vec<MapPanel>, growth_label: &str) -> StabilityMap {
+    StabilityMap {
+        panels,
+        growth_label: growth_label.into(),
+        has_marks: true,
+        lines: Vec::new(),
+        points: Vec::new(),
     }
 }
 

@@ -57,8 +57,8 @@ fn any_values_over_time_are_drawn_or_refused() {
                 .iter()
                 .enumerate()
                 .map(|(i, value)| (i as f64, *value));
-            let panel = time_panel("y (m)", scale, vec![series("y", points)]);
-            let outcome = time_panels(&over_time(vec![panel]), &directory.stem());
+            let panel = time_panel("y (m)", scale, vec![curve("y", points)]);
+            let outcome = over_time(vec![panel]).write(&directory.stem());
             assert_drawn_or_refused(
                 &directory,
                 outcome,
@@ -75,8 +75,8 @@ fn any_times_are_drawn_or_refused() {
     for mut times in sequences() {
         times.sort_by(f64::total_cmp);
         let points = times.iter().map(|t| (*t, 0.25));
-        let panel = time_panel("y (m)", Scale::Linear, vec![series("y", points)]);
-        let outcome = time_panels(&over_time(vec![panel]), &directory.stem());
+        let panel = time_panel("y (m)", Scale::Linear, vec![curve("y", points)]);
+        let outcome = over_time(vec![panel]).write(&directory.stem());
         assert_drawn_or_refused(
             &directory,
             outcome,
@@ -98,12 +98,10 @@ fn any_points_converge_or_are_refused() {
             let points = x.iter().copied().zip(y.iter().copied());
             let slopes = [0.0, 1.0, -2.0, 1e300, -1e-300, f64::NAN, f64::INFINITY];
             let panel = convergence_panel("odd", vec![curve("method", points)], &slopes);
-            let outcome = convergence(
-                &ConvergencePlot {
-                    panels: vec![panel],
-                },
-                &directory.stem(),
-            );
+            let plot = CurvePlot {
+                panels: vec![panel],
+            };
+            let outcome = plot.write(&directory.stem());
             let drawable = holds_any(Scale::Logarithmic, &values);
             match outcome {
                 Ok(()) => assert!(drawable, "drawn: {values:?}"),
@@ -123,11 +121,8 @@ fn assert_map_is_legible(directory: &Directory, scale: Scale, grid: &[f64], grow
     };
     let mut panel = map_panel("odd", grid.to_vec(), grid.to_vec(), cell);
     panel.x.scale = scale;
-    let plot = StabilityMap {
-        panels: vec![panel],
-        growth_label: "ρ".into(),
-    };
-    map(&plot, &directory.stem()).unwrap();
+    let plot = stability_map(vec![panel], "ρ");
+    plot.write(&directory.stem()).unwrap();
     directory.svg().assert_legible();
 }
 

@@ -7,17 +7,10 @@ const MARK: &str = "#EEB296";
 
 fn wave(count: u32) -> TimePanel {
     let points = (0..count).map(|i| (f64::from(i), (0.1 * f64::from(i)).sin()));
-    time_panel("y (m)", Scale::Linear, vec![series("y", points)])
+    time_panel("y (m)", Scale::Linear, vec![curve("y", points)])
 }
 
-fn path(name: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Path {
-    Path {
-        name: name.into(),
-        points: points.into_iter().collect(),
-    }
-}
-
-fn portrait(paths: Vec<Path>) -> Portrait {
+fn portrait(paths: Vec<Curve>) -> Portrait {
     Portrait {
         x_label: "x (m)".into(),
         y_label: "speed (m/s)".into(),
@@ -44,7 +37,7 @@ fn marks_stand_in_every_panel_and_once_in_the_legend() {
         marks: marks([20.0, 80.0, 1000.0, f64::NAN]),
         ..over_time(vec![wave(101), wave(101)])
     };
-    time_panels(&plot, &directory.stem()).unwrap();
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     svg.assert_legible();
     let texts = svg.texts();
@@ -55,7 +48,7 @@ fn marks_stand_in_every_panel_and_once_in_the_legend() {
     for line in &lines {
         assert!(line[0].0 == line[1].0 && line[0].1 < line[1].1, "{line:?}");
     }
-    let text = time_panels_svg(&plot, "marks").unwrap();
+    let text = plot.svg("marks").unwrap();
     let (mark, curve) = (text.rfind(MARK), text.rfind(BLUE));
     assert!(mark < curve, "marks are behind curves");
 }
@@ -67,7 +60,7 @@ fn very_many_marks_are_a_band() {
         marks: marks((0..4000).map(|i| 30.0 + 0.01 * f64::from(i))),
         ..over_time(vec![wave(101)])
     };
-    time_panels(&plot, &directory.stem()).unwrap();
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     assert_eq!(svg.polylines(MARK).len(), 1 + 2);
     assert_eq!(svg.count("rect", "fill", "#FCEAE1"), 1);
@@ -79,19 +72,19 @@ fn without_marks_nothing_is_said_of_them() {
         marks: marks([]),
         ..over_time(vec![wave(101)])
     };
-    assert!(!time_panels_svg(&plot, "none").unwrap().contains("impact"));
+    assert!(!plot.svg("none").unwrap().contains("impact"));
 }
 
 #[test]
 fn portraits_have_axes_of_their_own_below_the_panels_over_time() {
     let directory = Directory::new("portraits");
-    let pair = || vec![path("a", circle(1.0, 40)), path("b", circle(0.5, 40))];
+    let pair = || vec![curve("a", circle(1.0, 40)), curve("b", circle(0.5, 40))];
     for count in 0..4 {
         let plot = TimePanels {
             portraits: vec![portrait(pair()); count],
             ..over_time(vec![wave(101)])
         };
-        time_panels(&plot, &directory.stem()).unwrap();
+        plot.write(&directory.stem()).unwrap();
         let svg = directory.svg();
         svg.assert_legible();
         assert_eq!(svg.shown_size(), directory.png_size());
@@ -103,10 +96,10 @@ fn portraits_have_axes_of_their_own_below_the_panels_over_time() {
         assert_eq!(said("a"), count.min(1), "one legend for all");
     }
     let alone = TimePanels {
-        portraits: vec![portrait(vec![path("a", circle(1.0, 40))])],
+        portraits: vec![portrait(vec![curve("a", circle(1.0, 40))])],
         ..over_time(Vec::new())
     };
-    time_panels(&alone, &directory.stem()).unwrap();
+    alone.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     assert_eq!(svg.polylines(BLUE)[0].len(), 40);
     assert!(!svg.texts().contains(&"t (s)"));
@@ -114,7 +107,7 @@ fn portraits_have_axes_of_their_own_below_the_panels_over_time() {
 
 #[test]
 fn a_path_that_wanders_for_long_takes_bounded_room() {
-    let leaping = |i: u32| path(&format!("{i}"), circle(f64::from(i), 60_000));
+    let leaping = |i: u32| curve(&format!("{i}"), circle(f64::from(i), 60_000));
     let smooth = |i: u32| {
         let fine = circle(f64::from(i), 60_000);
         let turned = fine.zip(0..).map(move |((x, y), n)| {
@@ -122,14 +115,14 @@ fn a_path_that_wanders_for_long_takes_bounded_room() {
             let (sin, cos) = f64::sin_cos(angle);
             (x * cos - y * sin, x * sin + y * cos)
         });
-        path(&format!("{i}"), turned)
+        curve(&format!("{i}"), turned)
     };
     for paths in [[1, 2, 3].map(leaping), [1, 2, 3].map(smooth)] {
         let plot = TimePanels {
             portraits: vec![portrait(paths.into())],
             ..over_time(Vec::new())
         };
-        let bytes = time_panels_svg(&plot, "wandering").unwrap().len();
+        let bytes = plot.svg("wandering").unwrap().len();
         assert!(bytes < 400_000, "{bytes} bytes");
     }
 }
@@ -149,23 +142,23 @@ fn odd_portraits_are_drawn_or_refused() {
     for x in values {
         for y in values {
             let plot = TimePanels {
-                portraits: vec![portrait(vec![path("a", [(x, y), (0.0, 1.0)])])],
+                portraits: vec![portrait(vec![curve("a", [(x, y), (0.0, 1.0)])])],
                 ..over_time(Vec::new())
             };
-            read::Svg::parse(&time_panels_svg(&plot, "odd").unwrap()).assert_legible();
+            read::Svg::parse(&plot.svg("odd").unwrap()).assert_legible();
         }
     }
     let nothing = TimePanels {
-        portraits: vec![portrait(vec![path("a", [(f64::NAN, 0.0)])])],
+        portraits: vec![portrait(vec![curve("a", [(f64::NAN, 0.0)])])],
         ..over_time(Vec::new())
     };
-    let refused = time_panels_svg(&nothing, "nothing");
+    let refused = nothing.svg("nothing");
     assert!(matches!(refused, Err(PlotError::NoData { .. })));
     let crowded = TimePanels {
-        portraits: vec![portrait(vec![path("a", circle(1.0, 4))]); 12],
+        portraits: vec![portrait(vec![curve("a", circle(1.0, 4))]); 12],
         ..over_time(vec![wave(10)])
     };
-    let refused = time_panels_svg(&crowded, "crowded");
+    let refused = crowded.svg("crowded");
     assert!(matches!(
         refused,
         Err(PlotError::TooManyPanels { panels: 13, .. })

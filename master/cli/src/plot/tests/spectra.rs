@@ -7,13 +7,12 @@ fn radius(x_range: Option<(f64, f64)>, points: &[(f64, f64)]) -> CurvePlot {
         title: String::new(),
         x_label: "dt / T".into(),
         y_label: "spectral radius".into(),
-        x_scale: Scale::Logarithmic,
+        scales: [Scale::Logarithmic, Scale::Linear],
         x_range,
         y_range: Some((0.0, 1.25)),
-        curves: vec![Curve {
-            name: "Moreau".into(),
-            points: points.to_vec(),
-        }],
+        curves: vec![curve("Moreau", points.iter().copied())],
+        markers: Markers::Spread,
+        reference_slopes: Vec::new(),
     };
     CurvePlot {
         panels: vec![panel.clone(), panel],
@@ -27,7 +26,7 @@ fn curves_end_at_the_edge_of_their_panel() {
         Some((1e-2, 1e2)),
         &[(1e-2, 1.0), (0.3, 1.0), (0.4, 4.0), (1e2, 4e5)],
     );
-    curves(&plot, &directory.stem()).unwrap();
+    plot.write(&directory.stem()).unwrap();
     let svg = directory.svg();
     assert_eq!(svg.shown_size(), directory.png_size());
     svg.assert_legible();
@@ -52,23 +51,23 @@ fn curves_without_a_point_to_draw_are_refused() {
         radius(None, &[(-1.0, 1.0), (1.0, f64::NAN)]),
         radius(Some((1e-2, 1.0)), &[(2.0, 1.0), (3.0, 1.0)]),
     ] {
-        let error = curves(&plot, &directory.stem()).unwrap_err();
+        let error = plot.write(&directory.stem()).unwrap_err();
         assert!(matches!(error, PlotError::NoData { .. }), "{error}");
     }
     let mut plot = radius(None, &[(1.0, 1.0), (2.0, 1.0)]);
     plot.panels = vec![plot.panels[0].clone(); 13];
-    let error = curves(&plot, &directory.stem()).unwrap_err();
+    let error = plot.write(&directory.stem()).unwrap_err();
     assert!(matches!(error, PlotError::TooManyPanels { .. }), "{error}");
 }
 
-fn plane(growth: Option<f64>) -> RegionPlot {
+fn plane(growth: Option<f64>) -> StabilityMap {
     let cell = |_: f64, _: f64| MapCell {
         verdict: Verdict::Stable,
         growth,
     };
-    RegionPlot {
-        panel: map_panel("", vec![1.0, 10.0, 100.0], vec![1.0, 10.0, 100.0], cell),
-        growth_label: "spectral radius".into(),
+    let panel = map_panel("", vec![1.0, 10.0, 100.0], vec![1.0, 10.0, 100.0], cell);
+    StabilityMap {
+        has_marks: false,
         lines: vec![
             RegionLine {
                 name: "limit".into(),
@@ -87,13 +86,14 @@ fn plane(growth: Option<f64>) -> RegionPlot {
                 place: (x, 10.0),
             })
             .to_vec(),
+        ..stability_map(vec![panel], "spectral radius")
     }
 }
 
 #[test]
 fn a_region_has_its_lines_and_the_names_of_points_within() {
     let directory = Directory::new("region");
-    region(&plane(Some(0.5)), &directory.stem()).unwrap();
+    plane(Some(0.5)).write(&directory.stem()).unwrap();
     let svg = directory.svg();
     assert_eq!(svg.shown_size(), directory.png_size());
     svg.assert_legible();
@@ -108,10 +108,10 @@ fn a_region_has_its_lines_and_the_names_of_points_within() {
 #[test]
 fn a_region_without_a_factor_or_a_cell_is_refused() {
     let directory = Directory::new("no-region");
-    let error = region(&plane(None), &directory.stem()).unwrap_err();
+    let error = plane(None).write(&directory.stem()).unwrap_err();
     assert!(matches!(error, PlotError::NoData { .. }), "{error}");
     let mut plot = plane(Some(0.5));
-    plot.panel.cells.pop();
-    let error = region(&plot, &directory.stem()).unwrap_err();
+    plot.panels[0].cells.pop();
+    let error = plot.write(&directory.stem()).unwrap_err();
     assert!(matches!(error, PlotError::CellCount { .. }), "{error}");
 }

@@ -3,22 +3,20 @@
 mod picture;
 mod table;
 
-use std::convert::Infallible;
-
 use linchpin_master::results::Statistics;
 use linchpin_master::scene::{self, ConvergeSettings, Scene};
 use rayon::prelude::*;
 
 use super::StudyError;
-use super::columns::{Column, record};
-use super::errors::ErrorRecorder;
+use super::columns::{Column, names, record};
+use super::errors::RunErrors;
 pub use super::errors::{Errors, Quantity};
-use super::orders;
-use super::reference::{Reference, TrajectoryRecorder};
-use super::runs::{Variant, simulated, with_macro_step};
-use crate::simulate::Recorder;
+pub use super::orders::{least_squares, neighbouring};
+use super::reference::Reference;
+pub use super::run::{Ending, StudyRun};
+use super::runs::{Variant, watched, with_macro_step};
 pub use picture::{draw_errors, draw_work_precision};
-pub use table::{summary, write_csv};
+pub use table::{rows, summary};
 
 /// The runs of one case, from the largest macro step to the smallest.
 #[derive(Debug, Clone)]
@@ -26,54 +24,7 @@ pub struct CaseRuns {
     /// Name of the case, or of the scene.
     pub case: String,
     /// One run for each macro step.
-    pub runs: Vec<ConvergeRun>,
-}
-
-/// One run of a convergence study.
-#[derive(Debug, Clone)]
-pub struct ConvergeRun {
-    /// Macro step in s.
-    pub macro_step: f64,
-    /// What came out.
-    pub outcome: Outcome,
-}
-
-/// How a run of a study ended.
-#[derive(Debug, Clone)]
-pub enum Outcome {
-    /// At its end.
-    Done {
-        /// Errors against the reference.
-        errors: Errors,
-        /// What it cost.
-        statistics: Box<Statistics>,
-    },
-    /// It diverged; why, as a run says it.
-    Diverged(String),
-}
-
-impl ConvergeRun {
-    /// The error of a quantity, if the run came to its end and the reference knows the quantity.
-    pub fn error(&self, quantity: Quantity) -> Option<f64> {
-        match &self.outcome {
-            Outcome::Done { errors, .. } => errors.get(quantity),
-            Outcome::Diverged(_) => None,
-        }
-    }
-
-    fn point(&self, quantity: Quantity) -> orders::Point {
-        Some((self.macro_step, self.error(quantity)?))
-    }
-}
-
-/// Order between each run and the one with the next larger macro step.
-pub fn neighbouring(runs: &[ConvergeRun], quantity: Quantity) -> Vec<Option<f64>> {
-    orders::neighbouring(runs.iter().map(|run| run.point(quantity)))
-}
-
-/// Slope of the straight line that fits the logarithms of errors and macro steps best; `None` with fewer than two errors.
-pub fn least_squares(runs: &[ConvergeRun], quantity: Quantity) -> Option<f64> {
-    orders::least_squares(runs.iter().map(|run| run.point(quantity)))
+    pub runs: Vec<StudyRun>,
 }
 
 /// Number of runs of a study, for its progress.
@@ -127,7 +78,7 @@ struct Study {
     /// `None` if it would be the finest run, but that has diverged.
     reference: Option<Reference>,
     /// The finest run, if the reference should be it.
-    finest: Option<ConvergeRun>,
+    finest: Option<StudyRun>,
 }
 
 impl Study {
@@ -154,75 +105,51 @@ impl Study {
 
     /// Makes the run with the smallest macro step the reference; if it diverges there is none.
     fn run_finest(&mut self, macro_step: f64) -> Result<(), StudyError> {
-        let names = self.columns.iter().map(|column| Some(column.name.clone()));
-        let mut recorder = TrajectoryRecorder::new(names.collect());
-        let outcome = match self.simulate(macro_step, &mut recorder)? {
-            Ok(statistics) => {
-                let trajectory = recorder.into_trajectory();
-                self.reference = Some(Reference::coupled_run(trajectory, &self.columns));
-                Outcome::Done {
-                    errors: Errors::default(),
-                    statistics: Box::new(statistics),
-                }
-            }
-            Err(reason) => Outcome::Diverged(reason),
-        };
-        self.finest = Some(ConvergeRun {
-            macro_step,
-            outcome,
+        let scene = with_macro_step(&self.variant.scene, macro_step)?;
+        let run = Reference::of_run(&scene, &self.columns);
+        let run = run.map_err(|error| self.variant.failed(error))?;
+        let statistics = run.map(|(reference, statistics)| {
+            self.reference = Some(reference);
+            statistics
         });
+        let ending = Ending::of(statistics, Errors::default());
+        self.finest = Some(StudyRun { macro_step, ending });
         Ok(())
     }
 
-    fn run(&self, macro_step: f64, tick: &(dyn Fn() + Sync)) -> Result<ConvergeRun, StudyError> {
+    fn run(&self, macro_step: f64, tick: &(dyn Fn() + Sync)) -> Result<StudyRun, StudyError> {
         if let Some(finest) = &self.finest
             && finest.macro_step == macro_step
         {
             return Ok(finest.clone());
         }
-        let outcome = match &self.reference {
+        let ending = match &self.reference {
             Some(reference) => self.compared(reference, macro_step)?,
             None => self.alone(macro_step)?,
         };
         tick();
-        Ok(ConvergeRun {
-            macro_step,
-            outcome,
-        })
+        Ok(StudyRun { macro_step, ending })
     }
 
-    fn compared(&self, reference: &Reference, macro_step: f64) -> Result<Outcome, StudyError> {
+    fn compared(&self, reference: &Reference, macro_step: f64) -> Result<Ending, StudyError> {
         let are_means = self.variant.scene.coupling.multipliers_are_step_means();
-        let mut recorder = ErrorRecorder::new(reference, &self.columns, are_means);
-        let statistics = self.simulate(macro_step, &mut recorder)?;
-        Ok(Outcome::of(statistics, recorder.errors()))
+        let mut errors = RunErrors::new(reference, &self.columns, are_means);
+        let statistics = self.simulate(macro_step, |t, values| errors.add(t, values))?;
+        Ok(Ending::of(statistics, errors.errors()))
     }
 
     /// A run that nothing can be compared with: the finest one has diverged.
-    fn alone(&self, macro_step: f64) -> Result<Outcome, StudyError> {
-        let mut recorder = TrajectoryRecorder::new(Vec::new());
-        let statistics = self.simulate(macro_step, &mut recorder)?;
-        Ok(Outcome::of(statistics, Errors::default()))
+    fn alone(&self, macro_step: f64) -> Result<Ending, StudyError> {
+        let statistics = self.simulate(macro_step, |_, _| ())?;
+        Ok(Ending::of(statistics, Errors::default()))
     }
 
     fn simulate(
         &self,
         macro_step: f64,
-        recorder: &mut impl Recorder<Error = Infallible>,
+        take: impl FnMut(f64, &[Option<f64>]),
     ) -> Result<Result<Statistics, String>, StudyError> {
         let scene = with_macro_step(&self.variant.scene, macro_step)?;
-        simulated(&scene, recorder).map_err(|error| self.variant.failed(error))
-    }
-}
-
-impl Outcome {
-    fn of(statistics: Result<Statistics, String>, errors: Errors) -> Self {
-        match statistics {
-            Ok(statistics) => Self::Done {
-                errors,
-                statistics: Box::new(statistics),
-            },
-            Err(reason) => Self::Diverged(reason),
-        }
+        watched(&scene, &names(&self.columns), take).map_err(|error| self.variant.failed(error))
     }
 }

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use linchpin_master::results::Statistics;
 
-use super::{CaseRuns, ConvergeRun, Outcome, Quantity, neighbouring};
-use crate::plot::{ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, convergence};
+use super::{CaseRuns, Quantity, StudyRun, neighbouring};
+use crate::plot::{Chart, Curve, CurvePanel, CurvePlot, PlotError};
+use crate::study::orders;
+use crate::study::run::curve;
 
 /// What is counted of a run.
 type Count = fn(&Statistics) -> u64;
@@ -27,18 +29,15 @@ pub fn draw_errors(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotError> {
             "error of the multiplier, mid-step",
         ),
     ];
-    let panel = |(quantity, title): (Quantity, &str)| ConvergencePanel {
-        title: title.to_owned(),
-        x_label: "H in s".to_owned(),
-        y_label: "NRMS".to_owned(),
-        curves: curves(cases, |run| Some((run.macro_step, run.error(quantity)?))),
-        reference_slopes: slopes(cases, quantity),
+    let panel = |(quantity, title): (Quantity, &str)| {
+        let curves = curves(cases, |run| Some((run.macro_step, run.error(quantity)?)));
+        CurvePanel {
+            title: title.to_owned(),
+            reference_slopes: slopes(cases, quantity),
+            ..CurvePanel::of_errors("H in s", "NRMS", curves)
+        }
     };
-    let panels = quantities.map(panel).into_iter().filter(has_points);
-    let plot = ConvergencePlot {
-        panels: panels.collect(),
-    };
-    convergence(&plot, stem)
+    draw(quantities.into_iter().map(panel), stem)
 }
 
 /// Draws the errors over the numbers of integrations and of exchanges to `STEM.svg` and `STEM.png`.
@@ -55,53 +54,32 @@ pub fn draw_work_precision(cases: &[CaseRuns], stem: &Path) -> Result<(), PlotEr
         (|own| own.exchanges, "exchanges with workers"),
     ];
     let panel = |(quantity, title): (Quantity, &str)| {
-        costs.map(|(cost, x_label)| ConvergencePanel {
-            title: title.to_owned(),
-            x_label: x_label.to_owned(),
-            y_label: "NRMS".to_owned(),
-            curves: curves(cases, |run| Some((run.cost(cost)?, run.error(quantity)?))),
-            reference_slopes: Vec::new(),
+        costs.map(|(cost, x_label)| {
+            let curves = curves(cases, |run| Some((run.count(cost)?, run.error(quantity)?)));
+            CurvePanel {
+                title: title.to_owned(),
+                ..CurvePanel::of_errors(x_label, "NRMS", curves)
+            }
         })
     };
-    let panels = quantities
-        .map(panel)
-        .into_iter()
-        .flatten()
-        .filter(has_points);
-    let plot = ConvergencePlot {
-        panels: panels.collect(),
+    draw(quantities.into_iter().flat_map(panel), stem)
+}
+
+/// Draws the panels that have points.
+fn draw(panels: impl Iterator<Item = CurvePanel>, stem: &Path) -> Result<(), PlotError> {
+    let has_points = |panel: &CurvePanel| {
+        let mut points = panel.curves.iter().flat_map(|curve| &curve.points);
+        points.any(|point| point.1.is_finite())
     };
-    convergence(&plot, stem)
+    let panels = panels.filter(has_points).collect();
+    CurvePlot { panels }.write(stem)
 }
 
-fn curves(
-    cases: &[CaseRuns],
-    point: impl Fn(&ConvergeRun) -> Option<(f64, f64)>,
-) -> Vec<ConvergenceCurve> {
-    let curve = |case: &CaseRuns| ConvergenceCurve {
-        name: case.case.clone(),
-        // A run without an error is a gap in the line.
-        points: case
-            .runs
-            .iter()
-            .map(|run| point(run).unwrap_or((run.macro_step, f64::NAN)))
-            .collect(),
-    };
-    cases.iter().map(curve).collect()
-}
-
-fn has_points(panel: &ConvergencePanel) -> bool {
-    let mut points = panel.curves.iter().flat_map(|curve| &curve.points);
-    points.any(|point| point.1.is_finite())
-}
-
-impl ConvergeRun {
-    fn cost(&self, count: Count) -> Option<f64> {
-        match &self.outcome {
-            Outcome::Done { statistics, .. } => Some(count(statistics) as f64),
-            Outcome::Diverged(_) => None,
-        }
-    }
+fn curves(cases: &[CaseRuns], point: impl Fn(&StudyRun) -> Option<(f64, f64)>) -> Vec<Curve> {
+    let cases = cases.iter();
+    cases
+        .map(|case| curve(&case.case, &case.runs, &point))
+        .collect()
 }
 
 /// The multiples of a half next to the orders that the smallest macro steps show, each once.
@@ -112,13 +90,6 @@ fn slopes(cases: &[CaseRuns], quantity: Quantity) -> Vec<f64> {
             .flatten()
             .last()
     };
-    let mut slopes: Vec<f64> = cases
-        .iter()
-        .filter_map(last_order)
-        .map(|order| (2.0 * order).round() / 2.0)
-        .filter(|slope| SLOPES.contains(slope))
-        .collect();
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
-    slopes
+    let last_orders = cases.iter().filter_map(last_order);
+    orders::slopes(last_orders.map(|order| (2.0 * order).round() / 2.0), SLOPES)
 }

@@ -1,12 +1,11 @@
 //! The numbers of a convergence study: as CSV and as text.
 
 use std::fmt::Write as _;
-use std::path::Path;
 
 use linchpin_master::results::Statistics;
 use serde::Serialize;
 
-use super::{CaseRuns, Outcome, Quantity, least_squares, neighbouring};
+use super::{CaseRuns, Ending, Quantity, StudyRun, least_squares, neighbouring};
 
 /// One run as a row of `converge.csv`; what is not known is an empty field.
 #[derive(Debug, Default, Serialize)]
@@ -32,36 +31,24 @@ struct Record<'a> {
     solver_steps: Option<u64>,
 }
 
-/// Writes one row for each run.
-///
-/// # Errors
-/// The path cannot be written to.
-pub fn write_csv(cases: &[CaseRuns], path: &Path) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_path(path)?;
-    for case in cases {
-        for record in records(case) {
-            table.serialize(record)?;
-        }
-    }
-    Ok(table.flush()?)
+/// A row of `converge.csv` for each run.
+pub fn rows(cases: &[CaseRuns]) -> impl Iterator<Item = impl Serialize> {
+    cases.iter().flat_map(records)
 }
 
 fn records(case: &CaseRuns) -> Vec<Record<'_>> {
     let orders = Quantity::ALL.map(|quantity| neighbouring(&case.runs, quantity));
-    let record = |(number, run): (usize, &'_ super::ConvergeRun)| {
+    let record = |(number, run): (usize, &StudyRun)| {
         let errors = Quantity::ALL.map(|quantity| run.error(quantity));
         let [position, velocity, state, lambda, lambda_mid_step] =
             orders.each_ref().map(|orders| orders[number]);
-        let (outcome, statistics) = match &run.outcome {
-            Outcome::Done { statistics, .. } => ("done", Some(&**statistics)),
-            Outcome::Diverged(_) => ("diverged", None),
-        };
+        let statistics = run.ending.statistics();
         let residual =
             |level| statistics.and_then(|statistics| largest_residual(statistics, level));
         Record {
             case: &case.case,
             macro_step: run.macro_step,
-            outcome,
+            outcome: statistics.map_or("diverged", |_| "done"),
             nrms_position: errors[0],
             nrms_velocity: errors[1],
             nrms_state: errors[2],
@@ -118,9 +105,9 @@ fn write_case(text: &mut String, case: &CaseRuns) -> std::fmt::Result {
     writeln!(text, "{:>14}", "integrations")?;
     for (number, run) in case.runs.iter().enumerate() {
         write!(text, "{:>10}", format!("{:.3e}", run.macro_step))?;
-        match &run.outcome {
-            Outcome::Diverged(_) => writeln!(text, "  diverged")?,
-            Outcome::Done { statistics, .. } => {
+        match &run.ending {
+            Ending::Stopped(_) | Ending::Refused(_) => writeln!(text, "  diverged")?,
+            Ending::Done { statistics, .. } => {
                 for (&quantity, orders) in quantities.iter().zip(&orders) {
                     let error = run.error(quantity).map(|error| format!("{error:.3e}"));
                     let order = orders[number].map(|order| format!("{order:.2}"));

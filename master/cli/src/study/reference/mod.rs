@@ -3,14 +3,16 @@
 mod monolithic;
 mod trajectory;
 
-use linchpin_master::scene;
+use linchpin_master::RunError;
+use linchpin_master::results::Statistics;
+use linchpin_master::scene::{self, Scene};
 
 use super::StudyError;
-use super::columns::{Column, Kind};
-use super::runs::Variant;
+use super::columns::{Column, Kind, names};
+use super::runs::{Variant, watched};
 use crate::closed_form::{self, ClosedForm};
 pub use monolithic::Monolithic;
-pub use trajectory::{Trajectory, TrajectoryRecorder};
+pub use trajectory::Trajectory;
 
 /// Exact or nearly exact values of the judged columns.
 pub enum Reference {
@@ -77,13 +79,24 @@ impl Reference {
         }
     }
 
-    /// A coupled run, whose multipliers may jump.
-    pub fn coupled_run(trajectory: Trajectory, columns: &[Column]) -> Self {
+    /// A run of a coupled scene, whose multipliers may jump, with its statistics; or how it diverged.
+    ///
+    /// # Errors
+    /// What stopped the run otherwise.
+    pub fn of_run(
+        scene: &Scene,
+        columns: &[Column],
+    ) -> Result<Result<(Self, Statistics), String>, RunError> {
+        let mut trajectory = Trajectory::new(columns.len());
+        let outcome = watched(scene, &names(columns), |t, values| {
+            trajectory.add(t, values);
+        })?;
         let at_points_only = columns.iter().map(|column| column.kind == Kind::Multiplier);
-        Self::Run {
+        let reference = Self::Run {
             trajectory,
             at_points_only: at_points_only.collect(),
-        }
+        };
+        Ok(outcome.map(|statistics| (reference, statistics)))
     }
 
     /// Whether it knows values between the macro points of all runs.

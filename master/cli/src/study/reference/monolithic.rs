@@ -2,10 +2,10 @@
 
 use linchpin_master::scene::{self, Override, Scene};
 
-use super::{Reference, TrajectoryRecorder};
+use super::{Reference, Trajectory};
 use crate::study::StudyError;
 use crate::study::columns::{Column, terms};
-use crate::study::runs::{Variant, number, simulated, with_macro_step};
+use crate::study::runs::{Variant, number, watched, with_macro_step};
 
 /// The monolithic scene of a coupled one.
 #[derive(Debug, Clone)]
@@ -68,16 +68,18 @@ impl Monolithic {
     /// # Errors
     /// The run fails.
     pub fn reference(&self, variant: &Variant) -> Result<Reference, StudyError> {
-        let mut recorder = TrajectoryRecorder::new(self.names.clone());
-        let outcome =
-            simulated(&self.scene, &mut recorder).map_err(|error| variant.failed(error))?;
+        let mut trajectory = Trajectory::new(self.names.len());
+        let outcome = watched(&self.scene, &self.names, |t, values| {
+            trajectory.add(t, values);
+        });
+        let outcome = outcome.map_err(|error| variant.failed(error))?;
         outcome.map_err(|reason| StudyError::MonolithicDiverged {
             case: variant.in_words(),
             reason,
         })?;
         Ok(Reference::Run {
             at_points_only: vec![false; self.names.len()],
-            trajectory: recorder.into_trajectory(),
+            trajectory,
         })
     }
 
@@ -97,7 +99,7 @@ impl Monolithic {
     }
 
     /// What it calls the judged columns of the coupled scene.
-    pub fn names(&self) -> Vec<Option<&str>> {
-        self.names.iter().map(Option::as_deref).collect()
+    pub fn names(&self) -> &[Option<String>] {
+        &self.names
     }
 }

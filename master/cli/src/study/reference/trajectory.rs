@@ -1,16 +1,9 @@
 //! A run that others are compared with.
 
-use std::convert::Infallible;
-
-use linchpin_master::results::Row;
-
-use crate::simulate::Recorder;
-use crate::study::columns::{places, sum};
-
 /// The macro points of a run, which need not be at equal distances.
 pub struct Trajectory {
     t: Vec<f64>,
-    /// Row after row.
+    /// Row after row; not a number where a column has no value.
     values: Vec<f64>,
     columns: usize,
     largest_step: f64,
@@ -24,6 +17,27 @@ const SAME_POINT: f64 = 1e-6;
 const NODES: usize = 8;
 
 impl Trajectory {
+    /// One of so many columns, without a macro point.
+    pub fn new(columns: usize) -> Self {
+        Self {
+            t: Vec::new(),
+            values: Vec::new(),
+            columns,
+            largest_step: 0.0,
+        }
+    }
+
+    /// Takes a macro point.
+    pub fn add(&mut self, t: f64, values: &[Option<f64>]) {
+        if let Some(before) = self.t.last() {
+            self.largest_step = self.largest_step.max(t - before);
+        }
+        self.t.push(t);
+        let values = values.iter();
+        self.values
+            .extend(values.map(|value| value.unwrap_or(f64::NAN)));
+    }
+
     /// Value at a macro point.
     pub fn at_point(&self, column: usize, t: f64) -> Option<f64> {
         let tolerance = SAME_POINT * self.largest_step;
@@ -64,58 +78,6 @@ impl Trajectory {
 
     fn at(&self, point: usize, column: usize) -> f64 {
         self.values[point * self.columns + column]
-    }
-}
-
-/// Keeps a whole run: the sums of result columns that are asked for, not a number where there is nothing.
-pub struct TrajectoryRecorder {
-    names: Vec<Option<String>>,
-    places: Vec<Option<Vec<usize>>>,
-    trajectory: Trajectory,
-}
-
-impl TrajectoryRecorder {
-    /// Columns of the trajectory by their names in the run; `None` is a column without values.
-    pub fn new(names: Vec<Option<String>>) -> Self {
-        Self {
-            places: Vec::new(),
-            trajectory: Trajectory {
-                t: Vec::new(),
-                values: Vec::new(),
-                columns: names.len(),
-                largest_step: 0.0,
-            },
-            names,
-        }
-    }
-
-    /// What was recorded.
-    pub fn into_trajectory(self) -> Trajectory {
-        self.trajectory
-    }
-}
-
-impl Recorder for TrajectoryRecorder {
-    type Error = Infallible;
-
-    fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
-        let names = self.names.iter();
-        self.places = names.map(|name| places(row, name.as_deref()?)).collect();
-        Ok(())
-    }
-
-    fn record(&mut self, row: &Row) -> Result<(), Infallible> {
-        let (t, own) = (row.values()[0], &mut self.trajectory);
-        if let Some(before) = own.t.last() {
-            own.largest_step = own.largest_step.max(t - before);
-        }
-        own.t.push(t);
-        let value = |places: &Option<Vec<usize>>| {
-            let places = places.as_deref();
-            places.map_or(f64::NAN, |places| sum(row, places))
-        };
-        own.values.extend(self.places.iter().map(value));
-        Ok(())
     }
 }
 

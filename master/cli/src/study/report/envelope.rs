@@ -84,9 +84,18 @@ pub fn cheapest(costs: impl Iterator<Item = (String, Option<Cost>)>) -> Option<C
     })
 }
 
-/// How many times the integrations of `other` are needed, and how well that is known; `None` if nothing can be said.
-pub fn ratio(own: Cost, other: Cost) -> Option<(f64, Bound)> {
-    let ratio = own.integrations / other.integrations;
+/// A ratio of costs.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Ratio {
+    /// Its value.
+    pub value: f64,
+    /// How well it is known.
+    pub bound: Bound,
+}
+
+/// How many times the integrations of `other` are needed; `None` if nothing can be said.
+pub fn ratio(own: Cost, other: Cost) -> Option<Ratio> {
+    let value = own.integrations / other.integrations;
     let bound = match (own.bound, other.bound) {
         (Bound::Interpolated, Bound::Interpolated) => Bound::Interpolated,
         (Bound::Interpolated | Bound::AtMost, Bound::Interpolated | Bound::MoreThan) => {
@@ -97,7 +106,7 @@ pub fn ratio(own: Cost, other: Cost) -> Option<(f64, Bound)> {
         }
         _ => return None,
     };
-    Some((ratio, bound))
+    Some(Ratio { value, bound })
 }
 
 #[cfg(test)]
@@ -160,7 +169,8 @@ mod tests {
             integrations,
             bound,
         };
-        assert_eq!(ratio(of(own), of(other)), Some((0.01, Bound::AtMost)));
+        let (value, bound) = (0.01, Bound::AtMost);
+        assert_eq!(ratio(of(own), of(other)), Some(Ratio { value, bound }));
         assert_eq!(ratio(of(other), of(other)), None);
     }
 }

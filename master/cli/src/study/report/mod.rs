@@ -17,15 +17,15 @@ use linchpin_master::scene::Measure;
 
 use super::StudyError;
 use super::errors::Quantity;
-use super::orders;
+pub use super::run::{Ending, StudyRun};
 use super::stability::{CaseMap, Grid};
-pub use envelope::{Bound, Cheapest, Cost, cheapest, cost_of, ratio};
+pub use envelope::{Bound, Cheapest, Cost, Ratio, cheapest, cost_of, ratio};
 pub use page::text as page;
 pub use pictures::Picture;
 pub use plan::{Depth, Plan};
-pub use runs::{Ending, TimedRun, ToleranceRun};
-pub use summary::{EnvelopeRow, Ratio, envelope};
-pub use table::{json, write_csv};
+pub use runs::ToleranceRun;
+pub use summary::{EnvelopeRow, envelope};
+pub use table::json;
 use trace::Trace;
 
 /// Everything that a report shows.
@@ -73,7 +73,7 @@ pub struct SettingReport {
     /// What it sets, as `KEY=VALUE`.
     pub set: Vec<String>,
     /// One run for each macro step, from the largest to the smallest.
-    pub runs: Vec<TimedRun>,
+    pub runs: Vec<StudyRun>,
     trace: Trace,
 }
 
@@ -100,13 +100,5 @@ fn quantity_of(measure: Measure) -> Quantity {
         Measure::Velocity => Quantity::Velocity,
         Measure::State => Quantity::State,
         Measure::Multiplier => Quantity::Multiplier,
-    }
-}
-
-impl SettingReport {
-    /// Macro step and error of each run.
-    fn points(&self, quantity: Quantity) -> impl Iterator<Item = orders::Point> {
-        let runs = self.runs.iter();
-        runs.map(move |run| Some((run.macro_step, run.error(quantity)?)))
     }
 }

@@ -4,10 +4,10 @@ use std::fmt::{self, Display};
 
 use linchpin_master::results::Statistics;
 
-use super::envelope::{Bound, Cheapest};
+use super::envelope::{Bound, Cheapest, Ratio};
 use super::pictures::{MONOLITHIC, Picture};
-use super::summary::{EnvelopeRow, Ratio, envelope};
-use super::{Depth, Ending, Report, SceneReport, SettingReport, TimedRun};
+use super::summary::{EnvelopeRow, envelope};
+use super::{Depth, Ending, Report, SceneReport, SettingReport, StudyRun};
 use crate::html::Escaped;
 use crate::plot::PlotError;
 use crate::study::orders;
@@ -42,7 +42,7 @@ impl<'a> Section<'a> {
     fn new(scene: &'a SceneReport) -> Result<Self, PlotError> {
         let pictures = Picture::all(scene).into_iter();
         let drawn = pictures.map(|picture| {
-            let svg = inline(picture.svg(&scene.name)?);
+            let svg = inline(picture.chart.svg(&scene.name)?);
             Ok((svg, picture.caption))
         });
         Ok(Self {
@@ -160,8 +160,8 @@ impl Section<'_> {
     }
 
     fn write_setting(&self, f: &mut fmt::Formatter<'_>, setting: &SettingReport) -> fmt::Result {
-        let orders = orders::neighbouring(setting.points(self.scene.quantity));
-        for (TimedRun { macro_step, ending }, order) in setting.runs.iter().zip(orders) {
+        let orders = orders::neighbouring(&setting.runs, self.scene.quantity);
+        for (StudyRun { macro_step, ending }, order) in setting.runs.iter().zip(orders) {
             let step = format!("{macro_step:.3e}");
             self.write_run(f, (&setting.name, &step), ending, order)?;
         }

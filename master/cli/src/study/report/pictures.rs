@@ -1,18 +1,13 @@
 //! The pictures of one scene of a report.
 
-use std::path::Path;
-
-use linchpin_master::results::Statistics;
-
 use super::runs::USELESS;
 use super::trace::Trace;
-use super::{Ending, SceneReport, SettingReport, TimedRun};
+use super::{Ending, SceneReport, SettingReport, StudyRun};
 use crate::plot::{
-    ConvergenceCurve, ConvergencePanel, ConvergencePlot, PlotError, Scale, StabilityMap, TimePanel,
-    TimePanels, TimeSeries, convergence, convergence_svg, map, map_svg, time_panels,
-    time_panels_svg,
+    Chart, Curve, CurvePanel, CurvePlot, Scale, StabilityMap, TimePanel, TimePanels,
 };
 use crate::study::orders;
+use crate::study::run::curve;
 use crate::study::stability::plot_of;
 
 /// Name of the monolithic scene in legends.
@@ -27,13 +22,8 @@ pub struct Picture {
     pub ending: String,
     /// What it shows.
     pub caption: String,
-    plot: Plot,
-}
-
-enum Plot {
-    Curves(ConvergencePlot),
-    OverTime(TimePanels),
-    Map(StabilityMap),
+    /// The picture.
+    pub chart: Box<dyn Chart>,
 }
 
 impl Picture {
@@ -44,7 +34,7 @@ impl Picture {
             caption: "Error against cost and macro step; runs that diverged or are off by the whole solution \
                       stand in the table only."
                 .to_owned(),
-            plot: Plot::Curves(plot),
+            chart: Box::new(plot),
         });
         let step = scene.trace_step;
         let time = over_time(scene).map(|plot| Self {
@@ -52,41 +42,20 @@ impl Picture {
             caption: format!(
                 "Largest residual of all joints, and energy, over time; H = {step:e} s."
             ),
-            plot: Plot::OverTime(plot),
+            chart: Box::new(plot),
         });
         let maps = maps(scene).into_iter().enumerate();
         let maps = maps.map(|(number, plot)| Self {
             ending: format!("stability-{}", number + 1),
             caption: "Stability: circles are stable, crosses are not.".to_owned(),
-            plot: Plot::Map(plot),
+            chart: Box::new(plot),
         });
         cost.into_iter().chain(time).chain(maps).collect()
-    }
-
-    /// As the text of an SVG.
-    pub fn svg(&self, name: &str) -> Result<String, PlotError> {
-        match &self.plot {
-            Plot::Curves(plot) => convergence_svg(plot, name),
-            Plot::OverTime(plot) => time_panels_svg(plot, name),
-            Plot::Map(plot) => map_svg(plot, name),
-        }
-    }
-
-    /// To `STEM.svg` and `STEM.png`.
-    pub fn draw(&self, stem: &Path) -> Result<(), PlotError> {
-        match &self.plot {
-            Plot::Curves(plot) => convergence(plot, stem),
-            Plot::OverTime(plot) => time_panels(plot, stem),
-            Plot::Map(plot) => map(plot, stem),
-        }
     }
 }
 
 /// Errors over time, integrations, exchanges and macro step; `None` if no run has an error.
-fn work_precision(scene: &SceneReport) -> Option<ConvergencePlot> {
-    let count = |count: fn(&Statistics) -> u64| {
-        move |run: &TimedRun| Some(count(run.ending.statistics()?) as f64)
-    };
+fn work_precision(scene: &SceneReport) -> Option<CurvePlot> {
     let mut over_time = panel(scene, "wall time in s", &|run| run.ending.wall_time());
     over_time.curves.extend(monolithic(scene));
     let integrations = "subsystem integrations";
@@ -94,50 +63,40 @@ fn work_precision(scene: &SceneReport) -> Option<ConvergencePlot> {
     over_step.reference_slopes = slopes(scene);
     let panels = vec![
         over_time,
-        panel(scene, integrations, &count(|own| own.integrations)),
-        panel(scene, "exchanges with workers", &count(|own| own.exchanges)),
+        panel(scene, integrations, &|run| {
+            run.count(|own| own.integrations)
+        }),
+        panel(scene, "exchanges with workers", &|run| {
+            run.count(|own| own.exchanges)
+        }),
         over_step,
     ];
-    let has_points = |panel: &ConvergencePanel| {
+    let has_points = |panel: &CurvePanel| {
         let mut points = panel.curves.iter().flat_map(|curve| &curve.points);
         points.any(|(x, y)| x.is_finite() && *y > 0.0)
     };
     let can_be_drawn = panels.iter().all(has_points);
-    can_be_drawn.then_some(ConvergencePlot { panels })
+    can_be_drawn.then_some(CurvePlot { panels })
 }
 
-fn panel(
-    scene: &SceneReport,
-    x_label: &str,
-    x: &dyn Fn(&TimedRun) -> Option<f64>,
-) -> ConvergencePanel {
-    let point = |run: &TimedRun| {
+fn panel(scene: &SceneReport, x_label: &str, x: &dyn Fn(&StudyRun) -> Option<f64>) -> CurvePanel {
+    let point = |run: &StudyRun| {
         let error = run.error(scene.quantity)?;
         (error < USELESS).then_some((x(run)?, error))
     };
-    let curve = |setting: &SettingReport| ConvergenceCurve {
-        name: setting.name.clone(),
-        // A run without an error is a gap in the line.
-        points: setting
-            .runs
-            .iter()
-            .map(|run| point(run).unwrap_or((f64::NAN, f64::NAN)))
-            .collect(),
-    };
-    ConvergencePanel {
-        title: String::new(),
-        x_label: x_label.to_owned(),
-        y_label: format!("error of the {} (NRMS)", scene.quantity.name()),
-        curves: scene.settings.iter().map(curve).collect(),
-        reference_slopes: Vec::new(),
-    }
+    let y_label = format!("error of the {} (NRMS)", scene.quantity.name());
+    let settings = scene.settings.iter();
+    let curves = settings
+        .map(|own| curve(&own.name, &own.runs, point))
+        .collect();
+    CurvePanel::of_errors(x_label, &y_label, curves)
 }
 
-fn monolithic(scene: &SceneReport) -> Option<ConvergenceCurve> {
+fn monolithic(scene: &SceneReport) -> Option<Curve> {
     let point = |ending: &Ending| Some((ending.wall_time()?, ending.error(scene.quantity)?));
     let points = scene.monolithic.iter().filter_map(|run| point(&run.ending));
     let points: Vec<_> = points.collect();
-    (!points.is_empty()).then(|| ConvergenceCurve {
+    (!points.is_empty()).then(|| Curve {
         name: MONOLITHIC.to_owned(),
         points,
     })
@@ -145,15 +104,9 @@ fn monolithic(scene: &SceneReport) -> Option<ConvergenceCurve> {
 
 /// Whole orders that the settings show over all macro steps.
 fn slopes(scene: &SceneReport) -> Vec<f64> {
-    let order = |setting: &SettingReport| {
-        let points = setting.points(scene.quantity);
-        orders::least_squares(points).map(f64::round)
-    };
-    let mut slopes: Vec<f64> = scene.settings.iter().filter_map(order).collect();
-    slopes.retain(|slope| (1.0..=6.0).contains(slope));
-    slopes.sort_by(f64::total_cmp);
-    slopes.dedup();
-    slopes
+    let order = |setting: &SettingReport| orders::least_squares(&setting.runs, scene.quantity);
+    let orders = scene.settings.iter().filter_map(order).map(f64::round);
+    orders::slopes(orders, 1.0..=6.0)
 }
 
 /// Residuals, and energy if the scene tells it, over time; `None` if there is neither.
@@ -180,14 +133,13 @@ fn time_panel(
     label: &str,
     points: impl Fn(&Trace) -> &[(f64, f64)],
 ) -> Option<TimePanel> {
-    let series = |setting: &SettingReport| {
-        let (t, y): (Vec<f64>, Vec<f64>) = points(&setting.trace).iter().copied().unzip();
-        let name = setting.name.clone();
-        TimeSeries { name, t, y }
+    let series = |setting: &SettingReport| Curve {
+        name: setting.name.clone(),
+        points: points(&setting.trace).to_vec(),
     };
-    let series: Vec<TimeSeries> = scene.settings.iter().map(series).collect();
-    let mut values = series.iter().flat_map(|series| &series.y);
-    let can_be_drawn = values.any(|value| value.is_finite() && *value > 0.0);
+    let series: Vec<Curve> = scene.settings.iter().map(series).collect();
+    let mut all = series.iter().flat_map(|series| &series.points);
+    let can_be_drawn = all.any(|(_, value)| value.is_finite() && *value > 0.0);
     can_be_drawn.then(|| TimePanel {
         y_label: label.to_owned(),
         y_scale: Scale::Logarithmic,

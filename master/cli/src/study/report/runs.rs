@@ -1,23 +1,15 @@
 //! Runs whose time is measured.
 
 use linchpin_master::RunError;
-use linchpin_master::results::Statistics;
 use linchpin_master::scene::Scene;
 
 use super::Depth;
 use crate::study::StudyError;
-use crate::study::columns::Column;
-use crate::study::errors::{ErrorRecorder, Errors, Quantity};
+use crate::study::columns::{Column, names};
+use crate::study::errors::{Quantity, RunErrors};
 use crate::study::reference::{Monolithic, Reference};
-use crate::study::runs::{simulated, with_macro_step};
-
-/// A run at one macro step.
-pub struct TimedRun {
-    /// Macro step in s.
-    pub macro_step: f64,
-    /// How it ended.
-    pub ending: Ending,
-}
+use crate::study::run::{Ending, StudyRun};
+use crate::study::runs::{watched, with_macro_step};
 
 /// A run of the monolithic scene.
 pub struct ToleranceRun {
@@ -27,23 +19,6 @@ pub struct ToleranceRun {
     pub ending: Ending,
 }
 
-/// How a run of a report ended.
-pub enum Ending {
-    /// At its end.
-    Done {
-        /// Errors against the reference.
-        errors: Errors,
-        /// What it cost.
-        statistics: Box<Statistics>,
-        /// Shortest time of all macro steps in s, of several runs if they are short.
-        wall_time: f64,
-    },
-    /// It diverged or failed; why, as a run says it.
-    Stopped(String),
-    /// The scene cannot have this method; why.
-    Refused(String),
-}
-
 /// A relative error of this size is that of a run which has nothing to do with the solution.
 pub(super) const USELESS: f64 = 1.0;
 
@@ -51,38 +26,7 @@ pub(super) const USELESS: f64 = 1.0;
 const REPETITIONS: usize = 5;
 const LONG: f64 = 0.3;
 
-impl TimedRun {
-    /// The error of a quantity, if the run came to its end and the reference knows the quantity.
-    pub fn error(&self, quantity: Quantity) -> Option<f64> {
-        self.ending.error(quantity)
-    }
-}
-
 impl Ending {
-    /// The error of a quantity, if the run came to its end and the reference knows the quantity.
-    pub fn error(&self, quantity: Quantity) -> Option<f64> {
-        match self {
-            Self::Done { errors, .. } => errors.get(quantity),
-            _ => None,
-        }
-    }
-
-    /// What the run cost, if it came to its end.
-    pub fn statistics(&self) -> Option<&Statistics> {
-        match self {
-            Self::Done { statistics, .. } => Some(statistics),
-            _ => None,
-        }
-    }
-
-    /// Its time in s, if it came to its end.
-    pub fn wall_time(&self) -> Option<f64> {
-        match self {
-            Self::Done { wall_time, .. } => Some(*wall_time),
-            _ => None,
-        }
-    }
-
     /// In a word.
     pub fn word(&self) -> &'static str {
         match self {
@@ -119,12 +63,11 @@ impl Compared<'_> {
     ///
     /// # Errors
     /// The macro step does not fit the scene; an interrupt.
-    pub fn run(&self, scene: &Scene, macro_step: f64) -> Result<TimedRun, StudyError> {
+    pub fn run(&self, scene: &Scene, macro_step: f64) -> Result<StudyRun, StudyError> {
         let scene = with_macro_step(scene, macro_step)?;
         let are_means = scene.coupling.multipliers_are_step_means();
-        let recorder = || ErrorRecorder::new(self.reference, self.columns, are_means);
-        let ending = self.timed(recorder, |recorder| simulated(&scene, recorder));
-        Ok(TimedRun { macro_step, ending })
+        let ending = self.timed(&scene, &names(self.columns), are_means);
+        Ok(StudyRun { macro_step, ending })
     }
 
     /// Runs the monolithic scene with a tolerance; its macro points are those of `macro_step`.
@@ -138,24 +81,17 @@ impl Compared<'_> {
         macro_step: f64,
     ) -> Result<ToleranceRun, StudyError> {
         let scene = monolithic.with_tolerance(tolerance, macro_step)?;
-        let names = monolithic.names();
-        let recorder =
-            || ErrorRecorder::of_names(self.reference, self.columns, names.clone(), false);
-        let ending = self.timed(recorder, |recorder| simulated(&scene, recorder));
+        let ending = self.timed(&scene, monolithic.names(), false);
         Ok(ToleranceRun { tolerance, ending })
     }
 
     /// Runs several times; only the time differs from run to run.
-    fn timed<'r>(
-        &self,
-        recorder: impl Fn() -> ErrorRecorder<'r>,
-        run: impl Fn(&mut ErrorRecorder<'r>) -> Result<Result<Statistics, String>, RunError>,
-    ) -> Ending {
+    fn timed(&self, scene: &Scene, names: &[Option<String>], are_means: bool) -> Ending {
         let mut shortest: Option<Ending> = None;
         let mut spent = 0.0;
         for _ in 0..self.repetitions() {
-            let mut recorder = recorder();
-            let statistics = match run(&mut recorder) {
+            let mut errors = RunErrors::new(self.reference, self.columns, are_means);
+            let statistics = match watched(scene, names, |t, values| errors.add(t, values)) {
                 Ok(Ok(statistics)) => statistics,
                 Ok(Err(reason)) => return Ending::Stopped(reason),
                 Err(RunError::Scene(refusal)) => return Ending::Refused(refusal.to_string()),
@@ -166,9 +102,8 @@ impl Compared<'_> {
             let known = shortest.as_ref().and_then(Ending::wall_time);
             if known.is_none_or(|known| time < known) {
                 shortest = Some(Ending::Done {
-                    errors: recorder.errors(),
+                    errors: errors.errors(),
                     statistics: Box::new(statistics),
-                    wall_time: time,
                 });
             }
             if spent > LONG {

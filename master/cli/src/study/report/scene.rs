@@ -3,12 +3,12 @@
 use linchpin_master::scene::{self, Scene};
 
 use super::plan::{PlannedScene, PlannedSetting};
-use super::runs::{Compared, Ending, ToleranceRun};
+use super::runs::{Compared, ToleranceRun};
 use super::trace::{Trace, TraceRecorder};
-use super::{Depth, SceneReport, SettingReport, quantity_of};
+use super::{Depth, Ending, SceneReport, SettingReport, quantity_of};
 use crate::study::StudyError;
 use crate::study::columns::{Column, record};
-use crate::study::reference::{Monolithic, Reference, TrajectoryRecorder};
+use crate::study::reference::{Monolithic, Reference};
 use crate::study::runs::{Variant, simulated, with_macro_step};
 use crate::study::stability::{CaseMap, Grid, map_variants};
 
@@ -70,17 +70,14 @@ fn reference(
     }
     let smallest = planned.macro_steps[planned.macro_steps.len() - 1] / REFINEMENT;
     let scene = with_macro_step(&variant.scene, smallest)?;
-    let names = columns.iter().map(|column| Some(column.name.clone()));
-    let mut recorder = TrajectoryRecorder::new(names.collect());
-    let outcome = simulated(&scene, &mut recorder).map_err(|error| variant.failed(error))?;
-    outcome.map_err(|reason| StudyError::ReferenceDiverged {
+    let run = Reference::of_run(&scene, columns).map_err(|error| variant.failed(error))?;
+    let (reference, _) = run.map_err(|reason| StudyError::ReferenceDiverged {
         case: variant.in_words(),
         macro_step: smallest,
         reason,
     })?;
-    let trajectory = recorder.into_trajectory();
     let words = format!("the scene as its file has it, with H = {smallest:.3e} s");
-    Ok((Reference::coupled_run(trajectory, columns), words))
+    Ok((reference, words))
 }
 
 fn run_setting(

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::envelope::{Bound, Cheapest, Cost, cheapest, cost_of, ratio};
+use super::envelope::{Cheapest, Cost, Ratio, cheapest, cost_of, ratio};
 use super::{SceneReport, SettingReport};
 
 /// The methods of S1.
@@ -29,15 +29,6 @@ pub struct EnvelopeRow {
     pub to_paper: Option<Ratio>,
 }
 
-/// A ratio of costs.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Ratio {
-    /// Its value.
-    pub value: f64,
-    /// How well it is known.
-    pub bound: Bound,
-}
-
 /// One row for each method and target.
 pub fn envelope(scene: &SceneReport, targets: &[f64]) -> Vec<EnvelopeRow> {
     let mut methods: Vec<&str> = Vec::new();
@@ -61,10 +52,7 @@ fn row(scene: &SceneReport, method: &str, error: f64) -> EnvelopeRow {
     let own = best(&|setting| setting.method == method);
     let s1 = best(&is_s1);
     let paper = best(&|setting| setting.is_paper);
-    let to = |other: Option<Cheapest>| {
-        let (value, bound) = ratio(own.as_ref()?.cost, other?.cost)?;
-        Some(Ratio { value, bound })
-    };
+    let to = |other: Option<Cheapest>| ratio(own.as_ref()?.cost, other?.cost);
     EnvelopeRow {
         method: method.to_owned(),
         error,
@@ -81,8 +69,8 @@ fn is_s1(setting: &SettingReport) -> bool {
 
 impl SceneReport {
     fn cost(&self, setting: &SettingReport, error: f64) -> Option<Cost> {
-        let point = |run: &super::TimedRun| {
-            let integrations = run.ending.statistics()?.integrations as f64;
+        let point = |run: &super::StudyRun| {
+            let integrations = run.count(|own| own.integrations)?;
             Some((integrations, run.error(self.quantity)?))
         };
         let points: Vec<_> = setting.runs.iter().map(point).collect();

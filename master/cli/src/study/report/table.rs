@@ -1,7 +1,5 @@
 //! The numbers of a report for other programs: `report.csv` and `report.json`.
 
-use std::path::Path;
-
 use linchpin_master::results::Statistics;
 use serde::Serialize;
 
@@ -76,22 +74,14 @@ struct RunJson<'a> {
     statistics: Option<&'a Statistics>,
 }
 
-/// Writes one row for each run, those of monolithic scenes behind those of the settings.
-///
-/// # Errors
-/// The path cannot be written to.
-pub fn write_csv(report: &Report, path: &Path) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_path(path)?;
-    for scene in &report.scenes {
-        let settings = scene
-            .settings
-            .iter()
-            .flat_map(|setting| scene.rows(setting));
-        let runs = settings.chain(scene.monolithic_rows());
-        runs.map(|(row, _)| row)
-            .try_for_each(|row| table.serialize(row))?;
+impl Report {
+    /// A row of `report.csv` for each run, those of monolithic scenes behind those of the settings.
+    pub fn rows(&self) -> impl Iterator<Item = impl Serialize> {
+        self.scenes.iter().flat_map(|scene| {
+            let settings = scene.settings.iter().flat_map(|own| scene.rows(own));
+            settings.chain(scene.monolithic_rows()).map(|(row, _)| row)
+        })
     }
-    Ok(table.flush()?)
 }
 
 /// Everything as JSON.
@@ -119,7 +109,7 @@ impl SceneReport {
         &'a self,
         setting: &'a SettingReport,
     ) -> impl Iterator<Item = (Row<'a>, &'a Ending)> {
-        let orders = orders::neighbouring(setting.points(self.quantity));
+        let orders = orders::neighbouring(&setting.runs, self.quantity);
         let runs = setting.runs.iter().zip(orders);
         runs.map(|(run, order)| {
             let row = Row {

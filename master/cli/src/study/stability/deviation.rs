@@ -1,18 +1,14 @@
 //! Stable or not by comparison with a reference run, for scenes of any kind.
 
-use std::convert::Infallible;
-
 use linchpin_master::RunError;
-use linchpin_master::results::Row;
 use linchpin_master::scene::{self, Coupling, Degree, Index, Method, Scene};
 
 use super::Simulated;
 use super::cell::MOST_DEVIATION;
-use crate::simulate::Recorder;
 use crate::study::StudyError;
-use crate::study::columns::{Column, Kind, places, record, sum};
-use crate::study::reference::{Reference, TrajectoryRecorder};
-use crate::study::runs::{Variant, simulated};
+use crate::study::columns::{Column, Kind, names, record};
+use crate::study::reference::Reference;
+use crate::study::runs::{Variant, watched};
 
 /// Simulates and compares the velocities with those of a reference.
 ///
@@ -71,17 +67,39 @@ impl Deviation {
         };
         let mut scene = scene.clone();
         record(&mut scene, &self.columns);
-        let mut recorder = DeviationRecorder {
-            reference: self.shared.as_ref().or(own.as_ref()),
-            columns: &self.columns,
-            places: Vec::new(),
-            sizes: JUDGED.map(|_| Sizes::default()),
-        };
-        let growth = match simulated(&scene, &mut recorder)? {
-            Ok(_) => recorder.deviation(),
+        let reference = self.shared.as_ref().or(own.as_ref());
+        let mut sizes = JUDGED.map(|_| Sizes::default());
+        let outcome = watched(&scene, &names(&self.columns), |t, values| {
+            self.add(&mut sizes, reference, t, values);
+        });
+        let growth = match outcome? {
+            Ok(_) => deviation(&sizes),
             Err(_) => f64::INFINITY,
         };
         Ok(Simulated::new(growth, MOST_DEVIATION, &scene))
+    }
+
+    /// Takes the values of the columns at time `t`.
+    fn add(
+        &self,
+        sizes: &mut [Sizes; 2],
+        reference: Option<&Reference>,
+        t: f64,
+        values: &[Option<f64>],
+    ) {
+        let mut norms = JUDGED.map(|_| Sizes::default());
+        for (number, (column, value)) in self.columns.iter().zip(values).enumerate() {
+            let kind = JUDGED.iter().position(|kind| *kind == column.kind);
+            let exact = reference.and_then(|known| known.value(number, t));
+            if let (Some(kind), Some(value), Some(exact)) = (kind, value, exact) {
+                norms[kind].deviation += (value - exact).powi(2);
+                norms[kind].reference += exact.powi(2);
+            }
+        }
+        for (sizes, norms) in sizes.iter_mut().zip(norms) {
+            sizes.deviation = sizes.deviation.max(norms.deviation);
+            sizes.reference = sizes.reference.max(norms.reference);
+        }
     }
 }
 
@@ -102,14 +120,8 @@ fn reference_run(
             macro_step: macro_step / REFINEMENT,
             ..scene.coupling
         };
-        let names = columns.iter().map(|column| Some(column.name.clone()));
-        let mut recorder = TrajectoryRecorder::new(names.collect());
-        match simulated(&scene, &mut recorder) {
-            Ok(Ok(_)) => {
-                let trajectory = recorder.into_trajectory();
-                return Ok(Some(Reference::coupled_run(trajectory, columns)));
-            }
-            Ok(Err(_)) => return Ok(None),
+        match Reference::of_run(&scene, columns) {
+            Ok(run) => return Ok(run.ok().map(|(reference, _)| reference)),
             Err(RunError::Scene(errors)) => refusal = Some(errors),
             Err(error) => return Err(error),
         }
@@ -127,45 +139,8 @@ struct Sizes {
     reference: f64,
 }
 
-struct DeviationRecorder<'a> {
-    reference: Option<&'a Reference>,
-    columns: &'a [Column],
-    places: Vec<Option<Vec<usize>>>,
-    sizes: [Sizes; 2],
-}
-
-impl DeviationRecorder<'_> {
-    /// Largest deviation over the largest size of the reference; not a number if there is none.
-    fn deviation(&self) -> f64 {
-        let known = self.sizes.iter().find(|sizes| sizes.reference > 0.0);
-        known.map_or(f64::NAN, |sizes| (sizes.deviation / sizes.reference).sqrt())
-    }
-}
-
-impl Recorder for DeviationRecorder<'_> {
-    type Error = Infallible;
-
-    fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
-        let columns = self.columns.iter();
-        self.places = columns.map(|column| places(row, &column.name)).collect();
-        Ok(())
-    }
-
-    fn record(&mut self, row: &Row) -> Result<(), Infallible> {
-        let t = row.values()[0];
-        let mut norms = JUDGED.map(|_| Sizes::default());
-        for (number, column) in self.columns.iter().enumerate() {
-            let kind = JUDGED.iter().position(|kind| *kind == column.kind);
-            let exact = self.reference.and_then(|known| known.value(number, t));
-            if let (Some(kind), Some(places), Some(exact)) = (kind, &self.places[number], exact) {
-                norms[kind].deviation += (sum(row, places) - exact).powi(2);
-                norms[kind].reference += exact.powi(2);
-            }
-        }
-        for (sizes, norms) in self.sizes.iter_mut().zip(norms) {
-            sizes.deviation = sizes.deviation.max(norms.deviation);
-            sizes.reference = sizes.reference.max(norms.reference);
-        }
-        Ok(())
-    }
+/// Largest deviation over the largest size of the reference; not a number if there is none.
+fn deviation(sizes: &[Sizes; 2]) -> f64 {
+    let known = sizes.iter().find(|sizes| sizes.reference > 0.0);
+    known.map_or(f64::NAN, |sizes| (sizes.deviation / sizes.reference).sqrt())
 }

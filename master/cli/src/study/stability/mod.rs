@@ -12,14 +12,14 @@ use linchpin_proto::v1::Model;
 use rayon::prelude::*;
 
 use super::StudyError;
-use super::runs::{Variant, divergence, in_process};
+use super::runs::{Variant, in_process};
 use crate::closed_form::ClosedForm;
 use blow_up::BlowUp;
 pub use cell::{Agreement, Cell, Simulated};
 use deviation::Deviation;
 pub use picture::draw_map;
 pub(super) use picture::plot_of;
-pub use table::{Count, summary, write_csv};
+pub use table::{Count, rows, summary};
 
 /// The map of one case.
 #[derive(Debug, Clone)]
@@ -225,9 +225,7 @@ impl Study {
         let map = in_process(|connect| macro_step_map(scene, connect));
         match map.and_then(|map| map.spectral_radius()) {
             Ok(radius) => Ok(Some(radius)),
-            Err(ProbeError::Run(error)) => divergence(error)
-                .map(|_| None)
-                .map_err(|error| self.variant.failed(error)),
+            Err(ProbeError::Run(error)) => self.variant.nothing_if_diverged(error),
             Err(_) => Ok(None),
         }
     }
@@ -237,9 +235,7 @@ impl Study {
 fn reason_against_map(variant: &Variant, scene: &Scene) -> Result<Option<String>, StudyError> {
     match in_process(|connect| macro_step_map(scene, connect)) {
         Ok(_) => Ok(None),
-        Err(ProbeError::Run(error)) => divergence(error)
-            .map(|_| None)
-            .map_err(|error| variant.failed(error)),
+        Err(ProbeError::Run(error)) => variant.nothing_if_diverged(error),
         Err(reason) => Ok(Some(reason.to_string())),
     }
 }

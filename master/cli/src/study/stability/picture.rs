@@ -5,7 +5,7 @@ use std::path::Path;
 use linchpin_master::scene;
 
 use super::{Agreement, CaseMap, Cell, Grid};
-use crate::plot::{MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Verdict, map};
+use crate::plot::{Chart, MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Verdict};
 
 /// Draws one panel for each case to `STEM.svg` and `STEM.png`: circles where the simulation is stable, the spectral
 /// radius as colour behind.
@@ -13,7 +13,7 @@ use crate::plot::{MapAxis, MapCell, MapPanel, PlotError, Scale, StabilityMap, Ve
 /// # Errors
 /// [`PlotError`]: too many cases, nothing to draw, unwritable path.
 pub fn draw_map(maps: &[CaseMap], grid: &Grid, stem: &Path) -> Result<(), PlotError> {
-    map(&plot_of(maps, grid), stem)
+    plot_of(maps, grid).write(stem)
 }
 
 /// The picture that [`draw_map`] draws.
@@ -27,6 +27,9 @@ pub fn plot_of(maps: &[CaseMap], grid: &Grid) -> StabilityMap {
     StabilityMap {
         panels: maps.iter().map(panel).collect(),
         growth_label: "spectral radius".to_owned(),
+        has_marks: true,
+        lines: Vec::new(),
+        points: Vec::new(),
     }
 }
 
@@ -58,8 +61,7 @@ fn scale_of(values: &[f64]) -> Scale {
 fn drawn(cell: &Cell) -> MapCell {
     let verdict = match cell.agreement() {
         Some(Agreement::Undecided) => Verdict::Undecided,
-        _ if cell.simulated.is_stable() => Verdict::Stable,
-        _ => Verdict::Unstable,
+        _ => Verdict::of(cell.simulated.is_stable()),
     };
     MapCell {
         verdict,

@@ -1,11 +1,11 @@
 //! The numbers of a stability map: as CSV and counted.
 
 use std::fmt;
-use std::path::Path;
 
 use serde::Serialize;
 
 use super::{Agreement, CaseMap, Cell};
+use crate::plot::Verdict;
 
 /// One point as a row of `stability.csv`; what is not known is an empty field.
 #[derive(Debug, Serialize)]
@@ -20,18 +20,10 @@ struct Record<'a> {
     agreement: &'static str,
 }
 
-/// Writes one row for each point of each case.
-///
-/// # Errors
-/// The path cannot be written to.
-pub fn write_csv(maps: &[CaseMap], path: &Path) -> Result<(), csv::Error> {
-    let mut table = csv::Writer::from_path(path)?;
-    for map in maps {
-        for cell in &map.cells {
-            table.serialize(record(&map.case, cell))?;
-        }
-    }
-    Ok(table.flush()?)
+/// A row of `stability.csv` for each point of each case.
+pub fn rows(maps: &[CaseMap]) -> impl Iterator<Item = impl Serialize> {
+    maps.iter()
+        .flat_map(|map| map.cells.iter().map(|cell| record(&map.case, cell)))
 }
 
 fn record<'a>(case: &'a str, cell: &Cell) -> Record<'a> {
@@ -39,11 +31,7 @@ fn record<'a>(case: &'a str, cell: &Cell) -> Record<'a> {
         x: cell.x,
         y: cell.y,
         case,
-        simulated: if cell.simulated.is_stable() {
-            "stable"
-        } else {
-            "unstable"
-        },
+        simulated: Verdict::of(cell.simulated.is_stable()).name(),
         growth: cell.simulated.growth,
         steps: cell.simulated.steps,
         spectral_radius: cell.radius,

@@ -1,6 +1,7 @@
 //! A peer that plays a script, for tests of masters and of transports.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
@@ -28,7 +29,7 @@ pub enum Act {
 
 /// Passes every call to another contract, except where the script says otherwise.
 pub struct Scripted {
-    inner: Box<dyn Contract>,
+    inner: Arc<dyn Contract>,
     exchanges: AtomicU64,
     acts: BTreeMap<u64, Act>,
     protocol: Option<v1::ProtocolVersion>,
@@ -38,7 +39,7 @@ pub struct Scripted {
 
 impl Scripted {
     /// A peer that is true so far.
-    pub fn new(inner: Box<dyn Contract>) -> Self {
+    pub fn new(inner: Arc<dyn Contract>) -> Self {
         Self {
             inner,
             exchanges: AtomicU64::new(0),
