@@ -5,7 +5,7 @@ use linchpin_proto::version::Incompatible;
 
 use crate::connection::{LastWords, StartError};
 use crate::methods::Unreadable;
-use crate::scene::SceneErrors;
+use crate::reading::SceneErrors;
 
 /// Why a run could not start or had to stop.
 #[derive(Debug, thiserror::Error)]

@@ -6,7 +6,7 @@
 //! * [`time`]: the macro-time grid;
 //! * [`signal`]: the polynomials of the coupling variables;
 //! * [`joint`]: coupling conditions and loads of each kind of joint;
-//! * [`scene`]: what the user wrote, checked and resolved;
+//! * [`reading`]: what the user wrote, with places;
 //! * [`connection`]: workers, in this process or behind gRPC, and starting them;
 //! * [`error`]: what ends a run;
 //! * [`layout`]: which outputs the joints read, which are exchanged, and which inputs are driven;
@@ -16,6 +16,7 @@
 //! * [`accuracy`]: how large the error of a macro step is, and how large it may be;
 //! * [`methods`]: the coupling methods;
 //! * [`policies`]: what decides about a macro step;
+//! * [`scene`]: what is coupled, how, and for how long, checked and resolved;
 //! * [`macro_step`]: one macro step, top to bottom;
 //! * [`run`]: the loop around it, and what a run is at a macro point;
 //! * [`setup`]: from a scene to a run at its first macro point;
@@ -33,6 +34,7 @@ pub mod macro_step;
 pub mod methods;
 pub mod policies;
 pub mod probe;
+pub mod reading;
 pub mod results;
 pub mod run;
 pub mod scene;

@@ -12,7 +12,7 @@ use faer::Mat;
 
 use crate::CoSimulation;
 use crate::results::Row;
-use crate::scene::{Degree, Increment, JointKind, Method, Order, Scene};
+use crate::scene::{Increment, JointKind, Scene};
 use crate::setup::{Connect, Options, describe, multiplier_columns};
 
 use linchpin_proto::v1::{self, value::Kind};
@@ -268,25 +268,12 @@ fn check_exchanged(scene: &Scene) -> Result<(), ProbeError> {
 
 /// Number of macro points at which the method remembers multipliers, the present one included.
 fn memory_of(scene: &Scene) -> Result<usize, ProbeError> {
-    let fixed = |degree: Degree| degree.fixed().ok_or(ProbeError::ChangesDegree);
-    let degree = fixed(scene.coupling.degree)?;
-    match scene.coupling.method {
-        Method::Baumgarte { .. } | Method::Weighted { .. } => Ok(degree + 1),
-        Method::Hermite { variant } => Ok(usize::from(!variant.starts_anew())),
-        Method::Penalty {
-            order: Order::Jacobi,
-            ..
-        } => Ok(degree + 1),
-        Method::Penalty {
-            order: Order::GaussSeidel,
-            ..
-        } => match fixed(scene.coupling.exchanged_degree)? {
-            0 => Ok(degree + 1),
-            degree => Err(ProbeError::RemembersOutputs { degree }),
-        },
-        // The multipliers follow from the states at the same macro point.
-        Method::Explicit { .. } => Ok(0),
-    }
+    let degree = scene.coupling.degree.fixed();
+    let degree = degree.ok_or(ProbeError::ChangesDegree)?;
+    let exchanged = scene.coupling.exchanged_degree.highest();
+    let method = scene.coupling.method.parameters();
+    let remembered = method.remembered_points(degree, exchanged);
+    remembered.ok_or(ProbeError::RemembersOutputs { degree: exchanged })
 }
 
 fn states_of(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Coordinate>, ProbeError> {

@@ -61,7 +61,7 @@ fn scenes() -> Vec<(String, Scene)> {
             ));
         }
     }
-    scenes.retain(|(_, scene)| scene.coupling.method.keeps_columns());
+    scenes.retain(|(_, scene)| scene.coupling.method.corrects());
     // Scenes of one subsystem couple nothing.
     scenes.retain(|(_, scene)| !scene.joints.is_empty());
     // Workers that other machines serve are not there.

@@ -3,14 +3,17 @@
 //! * `estimate`: the worst error of a step;
 //! * `tolerance`: what is allowed of each quantity;
 //! * `position_error`: errors of positions by those of the multipliers, and what a step leaves of the joints open;
+//! * `change`: sizes of corrections;
 //! * `attempts`: what several attempts at a step tell of variables without a past.
 
 mod attempts;
+mod change;
 mod estimate;
 mod position_error;
 pub mod tolerance;
 
 pub use attempts::{Attempts, CHORD_ORDER};
+pub use change::{Change, MOST_LEFT};
 pub use estimate::{Estimate, Suspect};
 pub use position_error::{Correction, PositionErrors};
 pub use tolerance::Tolerance;

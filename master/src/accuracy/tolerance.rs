@@ -3,7 +3,6 @@
 use serde::{Deserialize, Serialize};
 
 use crate::layout::{Layout, What};
-use crate::scene::StepControl;
 use crate::system::Outputs;
 
 /// What error of a step is allowed of each quantity that the coupling watches: the absolute tolerance and the relative one times the
@@ -45,9 +44,9 @@ struct Watched {
 }
 
 impl Tolerance {
-    /// For the quantities of `layout` at a start with these `outputs`; `solvers` are the tolerances of the subsystems' solvers.
+    /// With the tolerance relative to sizes and the absolute one, for the quantities of `layout` at a start with these `outputs`; `solvers` are the tolerances of the subsystems' solvers.
     pub fn new(
-        control: &StepControl,
+        [relative, absolute]: [f64; 2],
         layout: &Layout,
         solvers: Vec<f64>,
         outputs: &dyn Outputs,
@@ -57,8 +56,8 @@ impl Tolerance {
             .iter()
             .map(|outputs| vec![None; outputs.len()]);
         let mut tolerance = Self {
-            relative: control.tolerance,
-            absolute: control.absolute_tolerance,
+            relative,
+            absolute,
             state: State {
                 sizes: Vec::new(),
                 watched: watched.collect(),

@@ -6,8 +6,7 @@ use super::jacobian::PointJacobian;
 use super::rejection::singular;
 use super::run::Run;
 use crate::error::RunError;
-use crate::methods::Reached;
-use crate::scene::Order;
+use crate::methods::{Order, Reached};
 use crate::time::MacroStep;
 use crate::workers::Ahead;
 

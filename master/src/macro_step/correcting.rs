@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
-use crate::accuracy::{Attempts, PositionErrors};
+use crate::accuracy::{Attempts, Change, PositionErrors};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::Corrected;
@@ -15,7 +15,7 @@ use crate::policies::deferred_correction::DeferredCorrection;
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::{IterationControl, Missed};
 use crate::policies::linearisation_check::LinearisationCheck;
-use crate::policies::norm::{Change, Norm};
+use crate::policies::norm::Norm;
 use crate::results::{Cause, Verdict};
 use crate::system::unknowns::Unknowns;
 use crate::time::MacroStep;

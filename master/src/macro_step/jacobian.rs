@@ -1,7 +1,7 @@
 //! Conditions, linearised by the responses of the workers.
 
 use crate::layout::Layout;
-use crate::methods::Method;
+use crate::methods::CouplingMethod;
 use crate::policies::columns::{self, Columns};
 use crate::results::Cause;
 use crate::signal::Held;
@@ -73,7 +73,13 @@ impl PointJacobian {
     }
 
     /// Lets the next exchange evaluate the responses at `t`.
-    pub fn request(&mut self, workers: &mut Workers, layout: &Layout, method: &dyn Method, t: f64) {
+    pub fn request(
+        &mut self,
+        workers: &mut Workers,
+        layout: &Layout,
+        method: &dyn CouplingMethod,
+        t: f64,
+    ) {
         let Some(held) = method.held() else { return };
         let perturbed = self.own.columns.ask(layout, &held, held.values, true);
         let look = Look {

@@ -4,7 +4,7 @@ use super::correcting::{Correcting, Corrector};
 use super::jacobian::PointJacobian;
 use crate::error::RunError;
 use crate::layout::Layout;
-use crate::methods::Method;
+use crate::methods::CouplingMethod;
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
 use crate::policies::step_size::StepSize;
@@ -15,7 +15,7 @@ use crate::workers::Workers;
 pub struct Run {
     pub layout: Layout,
     pub workers: Workers,
-    pub method: Box<dyn Method>,
+    pub method: Box<dyn CouplingMethod>,
     /// Present for methods that correct their prediction.
     pub corrector: Option<Corrector>,
     /// Present for methods that solve conditions at the macro points.

@@ -1,7 +1,7 @@
 //! How the levels of the coupling conditions are put together to one equation for the multipliers.
 
 use crate::joint::Level;
-use crate::scene::Formula;
+use crate::reading::Formula;
 use crate::system::System;
 use crate::system::solve::{LinearSolver, SingularColumn};
 

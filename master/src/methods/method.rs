@@ -2,19 +2,20 @@
 
 use std::ops::Range;
 
+use serde::Serialize;
+
 use super::condition::SingularRow;
 use super::saved::{Saved, Unreadable};
 use crate::accuracy::Attempts;
 use crate::joint::Level;
 use crate::layout::{Exchanged, Layout};
-use crate::scene::Order;
 use crate::signal::{Curves, ErrorShares, Held, Nodes};
 use crate::system::unknowns::Unknowns;
 use crate::system::{Outputs, Point, System};
 
 /// A coupling method: `predict`, `accept`, `reached`, step after step. It stands at the present macro point `T_N`, and `accept` takes it
 /// to `T_{N+1}`; until then every `predict` begins an attempt at the step anew, as if there had been none before.
-pub trait Method: Send {
+pub trait CouplingMethod: Send {
     /// Predicts the coupling variables over a step of length `length` (s).
     fn predict(&mut self, length: f64);
 
@@ -25,11 +26,11 @@ pub trait Method: Send {
     /// The values at the end of the step, as predicted or corrected last.
     fn ends(&self) -> &[f64];
 
-    /// The step is taken, with the curves that [`Method::lend`] lends.
+    /// The step is taken, with the curves that [`CouplingMethod::lend`] lends.
     fn accept(&mut self) {}
 
     /// The workers have reached the end of the step, or the start of the run. `point` are the conditions at that macro point, linearised,
-    /// for methods with [`Method::held`].
+    /// for methods with [`CouplingMethod::held`].
     ///
     /// # Errors
     /// The conditions determine no multiplier.
@@ -81,12 +82,12 @@ pub struct Reached<'a> {
     pub layout: &'a Layout,
     /// The coupling outputs.
     pub outputs: &'a dyn Outputs,
-    /// The conditions there, linearised, for methods with [`Method::held`].
+    /// The conditions there, linearised, for methods with [`CouplingMethod::held`].
     pub point: Option<&'a mut System>,
 }
 
 /// A method that corrects its prediction by what the workers answer to a look-ahead.
-pub trait Corrected: Method {
+pub trait Corrected: CouplingMethod {
     /// The point about which the conditions at the end of the step are linearised.
     fn point(&self) -> Point<'_>;
 
@@ -101,7 +102,7 @@ pub trait Corrected: Method {
     }
 
     /// Solves the linearised conditions for the change of the unknowns: those at the `end` of the step, and those at its start for methods
-    /// with [`Method::held`]. `is_first` for the first correction of the step.
+    /// with [`CouplingMethod::held`]. `is_first` for the first correction of the step.
     ///
     /// # Errors
     /// No unique solution.
@@ -140,7 +141,7 @@ pub trait Corrected: Method {
     /// The solution for the conditions of `end` at the outputs that the workers reached, with the matrix of the last correction.
     fn remaining(&mut self, end: &mut System, remaining: &mut [f64]);
 
-    /// The point that the step was corrected to, after [`Method::accept`].
+    /// The point that the step was corrected to, after [`CouplingMethod::accept`].
     fn corrected_point(&self) -> Point<'_>;
 
     /// The multipliers jump in the present step: what they were before is no help.
@@ -172,9 +173,19 @@ pub struct LoadErrors {
 /// A method that was made, and the conditions that have to be linearised for it, each with the levels of the outputs that count.
 pub struct Built {
     /// The method.
-    pub method: Box<dyn Method>,
+    pub method: Box<dyn CouplingMethod>,
     /// Those at the end of the step, for methods that correct.
     pub end: Option<(System, &'static [Level])>,
-    /// Those at the macro points, for methods with [`Method::held`].
+    /// Those at the macro points, for methods with [`CouplingMethod::held`].
     pub point: Option<(System, &'static [Level])>,
+}
+
+/// In which order the subsystems step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Order {
+    /// All at once, from extrapolated inputs.
+    Jacobi,
+    /// One after the other as the scene lists them; later ones know what earlier ones have reached.
+    GaussSeidel,
 }

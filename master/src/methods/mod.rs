@@ -1,5 +1,6 @@
-//! The coupling methods, a file or folder each, all behind one trait.
+//! The coupling methods, a folder each, all behind one trait.
 //!
+//! * `definition`: a method as a scene has it: parameters and what follows from them;
 //! * `method`: the trait: what a method does in a macro step;
 //! * `registry`: the list of all methods;
 //! * `semi_implicit`, `hermite`: multipliers of rigid joints, predicted and corrected;
@@ -9,6 +10,7 @@
 //! * `saved`: what a method remembers, as bytes.
 
 mod condition;
+mod definition;
 mod explicit;
 mod hermite;
 mod method;
@@ -18,6 +20,12 @@ mod saved;
 mod semi_implicit;
 
 pub use condition::SingularRow;
-pub use method::{Built, Corrected, LoadErrors, Method, Reached};
-pub use registry::{Given, build, level_of};
+pub use definition::{Given, Instability, Lacking, OwnCurves, Parameters};
+pub use explicit::Explicit;
+pub use hermite::{Hermite, Variant};
+pub use method::{Built, Corrected, CouplingMethod, LoadErrors, Order, Reached};
+pub use penalty::{Penalty, Spring};
+pub(crate) use registry::Entry;
+pub use registry::Method;
 pub use saved::{Saved, Unreadable};
+pub use semi_implicit::{Baumgarte, Index, Weighted};

@@ -1,111 +1,86 @@
-//! Which coupling methods there are: the only place that names them all.
+//! Which coupling methods there are: the only place that names them, a line for each.
 
-use super::condition::Condition;
-use super::explicit::Explicit;
-use super::hermite::Hermite;
-use super::method::Built;
-use super::penalty::{Penalty, springs_of, write_loads};
-use super::semi_implicit::SemiImplicit;
-use crate::joint::Level;
-use crate::layout::Layout;
-use crate::scene::{Index, Method, Scene, SceneErrors};
-use crate::signal::{History, Variables};
-use crate::system::Outputs;
+use serde::Serialize;
 
-use nalgebra::UnitQuaternion;
+use super::definition::{Definition, Parameters};
+use super::{explicit, hermite, penalty, semi_implicit};
+use crate::reading::formula::Steps;
+use crate::reading::reader::{Problems, Section};
 
-/// The first macro point.
-pub struct Given<'a> {
-    /// What is coupled.
-    pub layout: &'a Layout,
-    /// The coupling outputs.
-    pub outputs: &'a dyn Outputs,
-    /// Values of all coupling variables.
-    pub values: Vec<f64>,
-    /// Attitudes to which rotation vectors are relative.
-    pub attitudes: Vec<UnitQuaternion<f64>>,
-    /// Values at past macro points, newest first, where a study gives them.
-    pub established: Option<&'a [Vec<f64>]>,
+/// What a scene may know of a method before it has parameters.
+pub(crate) struct Entry {
+    /// Its name in a scene.
+    pub name: &'static str,
+    /// See [`Definition::KEYS`].
+    pub keys: &'static [&'static str],
+    /// See [`Definition::CORRECTS`].
+    pub corrects: bool,
+    /// See [`Definition::HIGHEST_DEGREE`].
+    pub highest_degree: usize,
+    /// See [`Definition::MAY_CHANGE_DEGREE`].
+    pub may_change_degree: bool,
+    /// See [`Definition::EXCHANGED_DEGREE`].
+    pub exchanged_degree: Option<usize>,
+    /// See [`Definition::read`].
+    pub read: fn(&Section<'_>, Option<Steps>, &mut Problems<'_>) -> Option<Method>,
 }
 
-impl Given<'_> {
-    /// The history of the variables, with the degrees of the scene.
-    fn history(self, scene: &Scene) -> History {
-        let coupling = &scene.coupling;
-        let variables = self.layout.describe_variables(
-            coupling.degree.highest(),
-            coupling.exchanged_degree.highest(),
-        );
-        match self.established {
-            Some(values) => {
-                History::established(variables, coupling.macro_step, values, self.attitudes)
+impl Entry {
+    const fn of<T: Definition>(
+        read: fn(&Section<'_>, Option<Steps>, &mut Problems<'_>) -> Option<Method>,
+    ) -> Self {
+        Self {
+            name: T::NAME,
+            keys: T::KEYS,
+            corrects: T::CORRECTS,
+            highest_degree: T::HIGHEST_DEGREE,
+            may_change_degree: T::MAY_CHANGE_DEGREE,
+            exchanged_degree: T::EXCHANGED_DEGREE,
+            read,
+        }
+    }
+}
+
+macro_rules! methods {
+    ($($(#[cfg($when:meta)])? $name:ident($parameters:ty): $doc:literal,)*) => {
+        /// What is demanded of the joints at the macro points, and how the multipliers follow from it.
+        ///
+        /// Serialises with its name in a scene under `name`, and its parameters.
+        #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+        #[serde(tag = "name", rename_all = "kebab-case")]
+        pub enum Method {
+            $($(#[cfg($when)])? #[doc = $doc] $name($parameters),)*
+        }
+
+        impl Method {
+            /// All methods.
+            pub(crate) const ALL: &'static [Entry] = &[
+                $($(#[cfg($when)])? Entry::of::<$parameters>(|section, steps, problems| {
+                    <$parameters>::read(section, steps, problems).map(Self::$name)
+                }),)*
+            ];
+
+            /// Whether it corrects its prediction.
+            pub fn corrects(&self) -> bool {
+                match self {
+                    $($(#[cfg($when)])? Self::$name(_) => <$parameters>::CORRECTS,)*
+                }
             }
-            None => History::new(variables, &self.values, self.attitudes),
+
+            /// What follows from its parameters.
+            pub fn parameters(&self) -> &dyn Parameters {
+                match self {
+                    $($(#[cfg($when)])? Self::$name(own) => own,)*
+                }
+            }
         }
-    }
+    };
 }
 
-/// Highest level of the conditions that a method needs.
-pub fn level_of(method: &Method) -> Level {
-    match method {
-        Method::Baumgarte { index, .. } | Method::Weighted { index, .. } => match index {
-            Index::Three => Level::Position,
-            Index::Two => Level::Velocity,
-            Index::One => Level::Acceleration,
-        },
-        Method::Hermite { variant } => variant.level(),
-        Method::Explicit { .. } => Level::Acceleration,
-        Method::Penalty { .. } => Level::Velocity,
-    }
-}
-
-/// Makes the method of a scene at the first macro point.
-///
-/// # Errors
-/// What the scene lacks.
-pub fn build(scene: &Scene, mut given: Given<'_>) -> Result<Built, SceneErrors> {
-    let coupling = &scene.coupling;
-    let layout = given.layout;
-    Ok(match coupling.method {
-        Method::Baumgarte { beta, gamma, .. } => {
-            let condition = Condition::Baumgarte { beta, gamma };
-            SemiImplicit::build(condition, given.history(scene), layout)
-        }
-        Method::Weighted { a, b, .. } => {
-            let condition = Condition::Weighted { a, b };
-            SemiImplicit::build(condition, given.history(scene), layout)
-        }
-        Method::Hermite { variant } => {
-            let variables = Variables {
-                degrees: vec![coupling.exchanged_degree.highest(); layout.variables()],
-                rotations: Vec::new(),
-            };
-            let start = given.established.and_then(|values| values.first());
-            let values = start.map_or(&given.values[..layout.variables()], |start| start);
-            let history = History::new(variables, values, given.attitudes);
-            Hermite::build(variant, history, layout, given.outputs)
-        }
-        Method::Explicit { mu } => {
-            given.established = None;
-            Explicit::build(mu, given.history(scene), layout)
-        }
-        Method::Penalty {
-            order,
-            lengths,
-            angles,
-        } => {
-            let springs = springs_of(scene, lengths, angles, layout)?;
-            let outputs = given.outputs;
-            write_loads(&springs, layout, outputs, &mut given.values);
-            let degree = coupling.exchanged_degree.highest();
-            Penalty::build(
-                order,
-                springs,
-                given.history(scene),
-                degree,
-                layout,
-                outputs,
-            )
-        }
-    })
+methods! {
+    Hermite(hermite::Hermite): "Polynomials of their own on every macro step.",
+    Baumgarte(semi_implicit::Baumgarte): "Schweizer & Lu, method 1: g + beta g' + gamma g'' = 0.",
+    Weighted(semi_implicit::Weighted): "Schweizer & Lu, method 2: weighted multipliers of position, velocity and acceleration.",
+    Explicit(explicit::Explicit): "The explicit index-1 method of Gu & Asada: (mu d/dt + 1)^2 g = 0.",
+    Penalty(penalty::Penalty): "Force of a spring and damper in place of the multiplier, on both ends.",
 }

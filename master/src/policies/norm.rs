@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
+use crate::accuracy::{Change, MOST_LEFT};
 use crate::layout::Layout;
 
 /// Compares a change of the coupling variables with the changes that the last macro steps made.
@@ -27,26 +28,11 @@ struct Group {
     noise: f64,
 }
 
-/// What columns of an earlier step may leave of a correction where steps are fixed. The error that they leave changes from step to step, so it is
-/// worse for the motion than an error of the multipliers of the same size that is smooth, and nothing else limits it.
-pub const MOST_LEFT: f64 = 1e-4;
-
 /// Where new columns leave more than this share of a change, the change is noise.
 const NOISE: f64 = 0.03;
 
 /// Noise may be so many times as much another time.
 const SCATTER: f64 = 3.0;
-
-/// Size of a change of the coupling variables, the largest over the groups.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct Change {
-    /// Relative to the corrections of the last macro steps.
-    pub of_usual: f64,
-    /// Relative to the variables themselves.
-    pub of_size: f64,
-    /// First variable of the group whose change is the largest, relative to the variables themselves.
-    pub variable: usize,
-}
 
 /// Share of its weight that a change keeps from one macro step to the next.
 const MEMORY: f64 = 0.9;

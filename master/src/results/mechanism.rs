@@ -4,7 +4,6 @@ use linchpin_proto::v1::{self, MarkerKind};
 
 use super::contacts::{self, RecordedContact};
 use crate::layout::MarkedJoint;
-use crate::scene::{self, Scene};
 
 /// All markers that the subsystems of a scene describe, and the joints between them.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,14 +43,14 @@ pub struct RecordedJoint {
 }
 
 impl Mechanism {
-    /// The markers of `models`, whose positions are all among the result `columns`.
+    /// The markers of `models` of these subsystems and the points of the joints at their ends, as far as a scene gives them; their positions are all among the result `columns`.
     pub(crate) fn new(
-        scene: &Scene,
+        subsystems: Vec<String>,
+        points: &[[Option<Vec<f64>>; 2]],
         models: &[v1::Model],
         joints: &[MarkedJoint],
         columns: &[String],
     ) -> Self {
-        let subsystems: Vec<String> = scene.subsystems.iter().map(|s| s.name.clone()).collect();
         let all = models.iter().enumerate();
         let all = all.flat_map(|(number, model)| model.markers.iter().map(move |m| (number, m)));
         let markers: Vec<RecordedMarker> = all
@@ -62,7 +61,7 @@ impl Mechanism {
                 columns: columns_of(columns, &subsystems[subsystem], &marker.position),
             })
             .collect();
-        let joint = |(written, joint): (&scene::Joint, &MarkedJoint)| {
+        let joint = |(points, joint): (&[Option<Vec<f64>>; 2], &MarkedJoint)| {
             let place = |(subsystem, marker): &(usize, v1::Marker)| {
                 let mut all = markers.iter();
                 all.position(|own| own.subsystem == *subsystem && own.name == marker.name)
@@ -70,7 +69,7 @@ impl Mechanism {
             Some(RecordedJoint {
                 name: joint.name.clone(),
                 ends: [place(&joint.ends[0])?, place(&joint.ends[1])?],
-                points: written.geometry.points.each_ref().map(point),
+                points: points.each_ref().map(point),
             })
         };
         let contact = |(place, marker): (usize, &RecordedMarker)| {
@@ -79,7 +78,7 @@ impl Mechanism {
         let contacts = markers.iter().enumerate().filter_map(contact).collect();
         Self {
             contacts,
-            joints: scene.joints.iter().zip(joints).filter_map(joint).collect(),
+            joints: points.iter().zip(joints).filter_map(joint).collect(),
             subsystems,
             markers,
         }

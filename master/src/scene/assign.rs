@@ -5,12 +5,12 @@ use std::sync::Arc;
 use toml::de::DeValue;
 
 use super::coupling;
-use super::error::{SceneError, SceneErrors};
-use super::error_kind::{Names, SceneErrorKind};
-use super::nearest::nearest;
-use super::overrides::Override;
-use super::place::{Source, Spot};
-use super::written::{Entry, Node, Table, Value, Written};
+use crate::reading::error::{SceneError, SceneErrors};
+use crate::reading::error_kind::{Names, SceneErrorKind};
+use crate::reading::nearest::nearest;
+use crate::reading::overrides::Override;
+use crate::reading::place::{Source, Spot};
+use crate::reading::written::{Entry, Node, Table, Value, Written};
 
 /// The longest key of a scene has six parts, in a nested table of parameters; a longer one than this is a mistake.
 const MOST_PARTS: usize = 8;

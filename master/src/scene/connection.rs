@@ -1,10 +1,10 @@
 //! Reads `[[connection]]`.
 
-use super::error_kind::SceneErrorKind;
-use super::names::Registry;
-use super::reader::{Problems, Section};
-use super::reference::read_variable;
 use super::resolved::Connection;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::names::Registry;
+use crate::reading::reader::{Problems, Section};
+use crate::reading::reference::read_variable;
 
 const KEYS: [&str; 3] = ["name", "from", "to"];
 

@@ -1,9 +1,8 @@
 //! Reads the degree of the polynomials of coupling variables: a whole number, or a word beside the numbers.
 
-use super::error_kind::SceneErrorKind;
-use super::reader::{Field, Problems};
-use super::resolved::{AUTOMATIC_DEGREE, Degree};
-use crate::signal::MAX_DEGREE;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::reader::{Field, Problems};
+use crate::signal::{AUTOMATIC_DEGREE, Degree, MAX_DEGREE};
 
 /// The degrees that a method offers.
 pub(super) struct Degrees {

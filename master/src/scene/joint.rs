@@ -1,12 +1,12 @@
 //! Reads `[[joint]]`.
 
-use super::error_kind::SceneErrorKind;
-use super::lists::collect;
-use super::names::Registry;
-use super::reader::{FINITE, Field, Problems, Section};
-use super::reference::find_name;
 use super::resolved::{Geometry, Joint, JointKind, Side};
-use super::written::Value;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::lists::collect;
+use crate::reading::names::Registry;
+use crate::reading::reader::{FINITE, Field, Problems, Section};
+use crate::reading::reference::find_name;
+use crate::reading::written::Value;
 
 const KEYS: [&str; 11] = [
     "name",

@@ -2,12 +2,12 @@
 
 use std::path::Path;
 
-use super::error::SceneErrors;
-use super::overrides::Override;
-use super::text::text_of;
 use super::variants::resolve_checked;
 use super::whole::Scene;
-use super::written::Written;
+use crate::reading::error::SceneErrors;
+use crate::reading::overrides::Override;
+use crate::reading::text::text_of;
+use crate::reading::written::Written;
 
 /// What a scene is, for messages.
 const SCENE_FILE: &str = "scene file";

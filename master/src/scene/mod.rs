@@ -9,21 +9,10 @@ mod assign;
 mod connection;
 mod coupling;
 mod degree;
-mod error;
-mod error_kind;
-mod formula;
-mod index;
 mod joint;
-mod lists;
 mod load;
 mod monolithic;
-mod names;
-pub(crate) mod nearest;
 mod output;
-mod overrides;
-mod place;
-mod reader;
-mod reference;
 mod resolve;
 mod resolved;
 mod spectrum;
@@ -34,17 +23,13 @@ mod subsystem;
 mod sweeps;
 #[cfg(test)]
 mod tests;
-mod text;
 mod variants;
 mod whole;
-mod written;
 
-pub use error::{SceneError, SceneErrors};
-pub use error_kind::{Names, SceneErrorKind};
-pub use formula::Formula;
+pub use crate::reading::{
+    Formula, Names, NotAnOverride, Override, Place, SceneError, SceneErrorKind, SceneErrors,
+};
 pub use load::{load, parse};
-pub use overrides::{NotAnOverride, Override};
-pub use place::Place;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, Increment, Index,
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,

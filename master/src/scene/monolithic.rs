@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-use super::error_kind::SceneErrorKind;
-use super::reader::{Field, Problems, Section};
 use super::resolved::Monolithic;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::reader::{Field, Problems, Section};
 
 const SUM: &str =
     "result columns such as \"mass1.x\", or sums of them such as \"a.energy + b.energy\"";

@@ -1,12 +1,12 @@
 //! Reads `[output]`: what is recorded and drawn.
 
-use super::error_kind::SceneErrorKind;
-use super::lists::collect;
-use super::names::Registry;
-use super::reader::{Field, Problems, Section};
-use super::reference::read_variable;
 use super::resolved::{Output, Over, Panel};
 use super::step_control::read_step;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::lists::collect;
+use crate::reading::names::Registry;
+use crate::reading::reader::{Field, Problems, Section};
+use crate::reading::reference::read_variable;
 
 const VARIABLES: &str = "a list of outputs such as [\"mass1.v\"]";
 const COLUMNS: &str = "a list of result columns such as [\"link.lambda\", \"a.energy + b.energy\"]";

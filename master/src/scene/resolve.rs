@@ -4,19 +4,19 @@ use std::sync::Arc;
 
 use super::connection;
 use super::coupling;
-use super::error::{SceneError, SceneErrors};
-use super::error_kind::SceneErrorKind;
 use super::joint;
-use super::lists::{collect, sections};
 use super::monolithic;
-use super::names::Registry;
 use super::output;
-use super::reader::{FINITE, Field, Problems, Range, Section};
 use super::resolved::RunSettings;
 use super::subsystem;
 use super::sweeps;
 use super::whole::Scene;
-use super::written::{Value, Written};
+use crate::reading::error::{SceneError, SceneErrors};
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::lists::{collect, sections};
+use crate::reading::names::Registry;
+use crate::reading::reader::{FINITE, Field, Problems, Range, Section};
+use crate::reading::written::{Value, Written};
 
 const SECTIONS: [&str; 11] = [
     "scene",

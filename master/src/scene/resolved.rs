@@ -7,9 +7,8 @@ use std::path::PathBuf;
 
 use linchpin_proto::v1;
 
-use super::overrides::Override;
 pub use crate::joint::Kind as JointKind;
-pub(super) use coupling::AUTOMATIC_DEGREE;
+use crate::reading::overrides::Override;
 pub use coupling::{
     Coupling, Degree, Increment, Index, Iterations, Jacobian, Loads, Method, Order, Otherwise,
     Spring, StepControl, Variant,

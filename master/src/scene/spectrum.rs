@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use super::error::SceneErrors;
-use super::error_kind::SceneErrorKind;
-use super::lists::{collect, sections};
-use super::reader::{FINITE, Field, POSITIVE, Problems, Range, Section};
 use super::sweeps::{log_grid, read_linear_grid};
-use super::text::text_of;
-use super::written::{Value, Written};
+use crate::reading::error::SceneErrors;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::lists::{collect, sections};
+use crate::reading::reader::{FINITE, Field, POSITIVE, Problems, Range, Section};
+use crate::reading::text::text_of;
+use crate::reading::written::{Value, Written};
 
 /// Schemes over the step, and a region of parameters; one of them is there.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! Reads the macro step of `[coupling]`, fixed or variable.
 
-use super::error_kind::SceneErrorKind;
-use super::formula::Steps;
-use super::reader::{Field, POSITIVE, Problems, Range, Section};
 use super::resolved::StepControl;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::formula::Steps;
+use crate::reading::reader::{Field, POSITIVE, Problems, Range, Section};
 
 /// The key that makes the macro step vary.
 const TOLERANCE_KEY: &str = "tolerance";

@@ -5,17 +5,17 @@ use std::sync::Arc;
 
 use super::assign::Assignment;
 use super::coupling::METHOD_KEY;
-use super::error::SceneErrors;
-use super::lists::{collect, sections};
-use super::names::Registry;
-use super::overrides::Override;
-use super::place::Source;
-use super::reader::{Field, POSITIVE, Problems, Section};
-use super::reference::find_name;
 use super::step_control::read_step;
 use super::sweeps::{read_macro_steps, set_assignments};
-use super::text::text_of;
-use super::written::{Value, Written};
+use crate::reading::error::SceneErrors;
+use crate::reading::lists::{collect, sections};
+use crate::reading::names::Registry;
+use crate::reading::overrides::Override;
+use crate::reading::place::Source;
+use crate::reading::reader::{Field, POSITIVE, Problems, Section};
+use crate::reading::reference::find_name;
+use crate::reading::text::text_of;
+use crate::reading::written::{Value, Written};
 
 /// A study: every scene with every setting that is meant for it, over the macro steps of the scene.
 #[derive(Clone, Debug)]

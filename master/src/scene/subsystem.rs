@@ -5,11 +5,11 @@ use std::collections::BTreeMap;
 use linchpin_proto::v1::{self, value::Kind};
 use tonic::transport::Uri;
 
-use super::error_kind::SceneErrorKind;
-use super::lists::collect;
-use super::reader::{FINITE, Field, Problems, Section, is_name};
 use super::resolved::{Calls, Served, Subsystem};
-use super::written::Value;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::lists::collect;
+use crate::reading::reader::{FINITE, Field, Problems, Section, is_name};
+use crate::reading::written::Value;
 
 const KEYS: [&str; 8] = [
     "name",

@@ -1,11 +1,11 @@
 //! Reads the studies over a scene: `[[case]]`, `[converge]` and `[stability]`.
 
 use super::assign::Assignment;
-use super::overrides::Override;
-use super::reader::{FINITE, Field, POSITIVE, Problems, Section};
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
 use super::step_control::read_step;
-use super::written::{Node, Table, Value};
+use crate::reading::overrides::Override;
+use crate::reading::reader::{FINITE, Field, POSITIVE, Problems, Section};
+use crate::reading::written::{Node, Table, Value};
 
 const REFERENCES: [(&str, Reference); 4] = [
     ("automatic", Reference::Automatic),

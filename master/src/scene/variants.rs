@@ -1,14 +1,14 @@
 //! The same scene with other values: overrides, cases, and the points of a stability map.
 
 use super::assign::Assignment;
-use super::error::{SceneError, SceneErrors};
-use super::overrides::Override;
 use super::resolve::resolve;
 use super::resolved::{Axis, Case, Subsystem};
 use super::study::Settings;
 use super::sweeps::{axis_assignments, set_assignments};
 use super::whole::Scene;
-use super::written::{Value, Written};
+use crate::reading::error::{SceneError, SceneErrors};
+use crate::reading::overrides::Override;
+use crate::reading::written::{Value, Written};
 
 impl Scene {
     /// The same file with further overrides; those that it has already stay, and later ones win.

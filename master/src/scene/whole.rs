@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use super::error::{SceneError, SceneErrors};
-use super::error_kind::SceneErrorKind;
-use super::place::Place;
 use super::resolved::{
     Case, Connection, ConvergeSettings, Coupling, Joint, Monolithic, Output, RunSettings,
     StabilitySettings, Subsystem,
 };
-use super::written::Written;
+use crate::reading::error::{SceneError, SceneErrors};
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::place::Place;
+use crate::reading::written::Written;
 
 /// A scene as resolved. Times in s, all units SI; everything is finite and within its range.
 #[derive(Clone, Debug, PartialEq)]

@@ -6,8 +6,9 @@ use linchpin_proto::v1;
 
 use crate::error::RunError;
 use crate::layout::{DrivenInput, Layout, LoadForm, Source};
+use crate::methods::OwnCurves;
 use crate::results::StepDegrees;
-use crate::scene::{self, Degree, Jacobian, Loads, Method, Scene};
+use crate::scene::{self, Degree, Jacobian, Loads, Scene};
 use crate::signal::MAX_DEGREE;
 
 /// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
@@ -18,8 +19,8 @@ pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Load
     let coupling = &scene.coupling;
     // Responses to force and moment turn with the body; those to a multiplier also turn with its partner, so they grow old sooner. What the form
     // of the load adds to the error of S1's methods counts where nothing controls the error.
-    let is_controlled =
-        matches!(coupling.method, Method::Hermite { .. }) || coupling.step_control.is_some();
+    let own_curves = coupling.method.parameters().own_curves();
+    let is_controlled = own_curves.is_some() || coupling.step_control.is_some();
     let turns_with_the_body = is_controlled && coupling.jacobian == Jacobian::Reuse;
     let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
         let capabilities = model.capabilities.unwrap_or_default();
@@ -102,15 +103,12 @@ fn refuse_degree(
         "the model \"{}\" of subsystem \"{}\" takes inputs of degree {highest} at most, found {degree}",
         model.name, scene.subsystems[input.subsystem].name
     );
-    let help = match key {
-        VARIANT => "choose another variant or method".to_owned(),
-        key => format!("choose {key} = {highest}"),
+    let help = match scene.coupling.method.parameters().own_curves() {
+        Some(own) if own.key == key => "choose another variant or method".to_owned(),
+        _ => format!("choose {key} = {highest}"),
     };
     scene.error(key, message, Some(help)).into()
 }
-
-/// The key that determines the degrees of Hermite coupling.
-const VARIANT: &str = "coupling.variant";
 
 /// A degree of polynomials that an input is sent.
 #[derive(Debug, Clone, Copy)]
@@ -138,17 +136,18 @@ fn groups(coupling: &scene::Coupling) -> [Sent; 2] {
 fn sent(coupling: &scene::Coupling, layout: &Layout, input: &DrivenInput) -> Vec<Sent> {
     let exchanged = layout.rows.len()..layout.variables();
     let mut groups = groups(coupling);
-    let of_variant = |degree| Sent {
+    let own_curves = coupling.method.parameters().own_curves();
+    let of_own = |degree, key| Sent {
         degree: Degree::Fixed(degree),
-        key: VARIANT,
+        key,
         group: None,
     };
     let terms = match &input.source {
         Source::Attitude { .. } => return Vec::new(),
         Source::Sum(terms) => terms,
         Source::Load(_) => {
-            if let Method::Hermite { variant } = coupling.method {
-                return vec![of_variant(variant.motion_degree())];
+            if let Some(OwnCurves { motion, key, .. }) = own_curves {
+                return vec![of_own(motion, key)];
             }
             // The direction of a load is no polynomial; of a lower degree it would spoil the order of the method.
             groups.sort_by_key(|sent| Reverse(sent.degree.highest()));
@@ -162,12 +161,12 @@ fn sent(coupling: &scene::Coupling, layout: &Layout, input: &DrivenInput) -> Vec
         .iter()
         .any(|(variable, _)| layout.is_signal(*variable));
     let [of_multipliers, of_exchanged] = groups;
-    vec![match coupling.method {
-        Method::Hermite { .. } if is_signal => of_exchanged,
-        Method::Hermite { variant } if is_exchanged => of_variant(variant.motion_degree()),
-        Method::Hermite { variant } => of_variant(variant.degree()),
-        _ if is_exchanged => of_exchanged,
-        _ => of_multipliers,
+    vec![match own_curves {
+        Some(_) if is_signal => of_exchanged,
+        Some(own) if is_exchanged => of_own(own.motion, own.key),
+        Some(own) => of_own(own.multipliers, own.key),
+        None if is_exchanged => of_exchanged,
+        None => of_multipliers,
     }]
 }
 

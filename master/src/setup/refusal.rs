@@ -4,7 +4,7 @@ use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
 
 use crate::error::RunError;
-use crate::scene::nearest::nearest;
+use crate::reading::nearest::nearest;
 use crate::scene::{Scene, SceneErrors};
 use crate::time::at_start;
 use crate::workers::{Subsystem, Workers};

@@ -15,13 +15,13 @@ use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{Coupled, Layout};
 use crate::macro_step::{Corrector, Jacobian, PointJacobian, Run, look_ahead, reach};
-use crate::methods::{Built, Given, build, level_of};
+use crate::methods::{Built, Given, Lacking};
 use crate::policies::columns::{Basis, Columns, Measuring};
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
 use crate::results::{Guard, Mechanism, Row, Statistics, StepDegrees};
 use crate::run::CoSimulation;
-use crate::scene::{self, Coupling, Degree, Method, Scene};
+use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, System};
 use crate::time::at_start;
 use crate::workers::{Samples, Subsystem, Workers};
@@ -79,13 +79,19 @@ impl CoSimulation {
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
         let row = Row::new(&run.layout, named, shows_step, degrees);
+        let points: Vec<_> = scene
+            .joints
+            .iter()
+            .map(|joint| joint.geometry.points.clone())
+            .collect();
+        let names = names(scene).into_iter().map(str::to_owned).collect();
         let mechanism = options
             .record_markers
-            .then(|| Mechanism::new(scene, &models, &joints, row.columns()));
-        let guard = match &scene.coupling.method {
+            .then(|| Mechanism::new(names, &points, &models, &joints, row.columns()));
+        let guard = match scene.coupling.method.parameters().closes_joints() {
             _ if options.watch_nothing => Guard::off(),
-            Method::Penalty { .. } => Guard::of_springs(),
-            _ => Guard::of_rigid_joints(),
+            false => Guard::of_springs(),
+            true => Guard::of_rigid_joints(),
         };
         let mut statistics = Statistics::new(&run.layout);
         statistics.free_velocities = free_velocities;
@@ -121,9 +127,13 @@ fn assemble(
         outputs: &workers.now(),
         values: initial.variables,
         attitudes: initial.attitudes,
+        degrees: [coupling.degree, coupling.exchanged_degree],
+        macro_step: coupling.macro_step,
         established: options.established.as_deref(),
     };
-    let Built { method, end, point } = build(scene, given)?;
+    let built = coupling.method.parameters().build(given);
+    let Built { method, end, point } = built
+        .map_err(|Lacking { message, help }| scene.error("coupling.method", message, Some(help)))?;
     let subsystems = workers.subsystems.iter();
     let differentiation: Vec<Differentiation> =
         subsystems.map(Subsystem::differentiation).collect();
@@ -140,11 +150,17 @@ fn assemble(
     };
     let first = plan.step().map_or(0.0, |step| step.length);
     let given = options.degrees.clone();
+    let method_of_scene = coupling.method;
+    let stable = Box::new(move |length| scene::highest_stable_degree(method_of_scene, length));
     Ok(Run {
-        degrees: AutomaticDegrees::new(coupling.method, &layout, highest, first, given),
+        degrees: AutomaticDegrees::new(stable, &layout, highest, first, given),
         corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),
         point: point.map(|point| PointJacobian::new(jacobian(point))),
-        iteration: IterationControl::new(coupling),
+        iteration: IterationControl::new(
+            coupling.jacobian,
+            coupling.iterations,
+            coupling.step_control.is_some(),
+        ),
         refusal: None,
         layout,
         workers,
@@ -205,13 +221,14 @@ fn names(scene: &Scene) -> Vec<&str> {
 }
 
 fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
-    let method = &scene.coupling.method;
-    let layout = match method {
-        Method::Hermite { .. } => Layout::with_rates(coupled, level_of(method)),
-        _ => Layout::new(coupled, level_of(method)),
+    let method = scene.coupling.method.parameters();
+    let layout = match method.own_curves() {
+        Some(_) => Layout::with_rates(coupled, method.level()),
+        None => Layout::new(coupled, method.level()),
     };
     let mut layout = layout.map_err(|lacks| refuse_marker(scene, lacks))?;
-    if method.keeps_columns() && scene.coupling.jacobian == scene::Jacobian::Reuse {
+    let coupling = &scene.coupling;
+    if coupling.method.corrects() && coupling.jacobian == scene::Jacobian::Reuse {
         layout.add_frames(coupled);
     }
     Ok(layout)
@@ -225,17 +242,18 @@ fn initial_state(
     options: &Options,
 ) -> Result<InitialState, RunError> {
     let accepts_open = options.accept_open_joints;
-    match scene.coupling.method {
-        _ if options.established.is_some() => Ok(InitialState::at_rest(layout.variables())),
-        Method::Penalty { .. } => InitialState::unloaded(scene, layout, workers, accepts_open),
-        _ => InitialState::find(scene, coupled, layout, workers, accepts_open),
+    let closes_joints = scene.coupling.method.parameters().closes_joints();
+    match options.established {
+        Some(_) => Ok(InitialState::at_rest(layout.variables())),
+        None if closes_joints => InitialState::find(scene, coupled, layout, workers, accepts_open),
+        None => InitialState::unloaded(scene, layout, workers, accepts_open),
     }
 }
 
 /// A signal and the load of a joint at one input are one polynomial, so they must have one degree.
 fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> {
     let (degree, exchanged) = (scene.coupling.degree, scene.coupling.exchanged_degree);
-    let is_hermite = matches!(scene.coupling.method, Method::Hermite { .. });
+    let own_curves = scene.coupling.method.parameters().own_curves();
     let is_loaded = |connection: &&scene::Connection| {
         let (subsystem, name) = &connection.to;
         let mut inputs = layout.inputs_of(*subsystem).iter();
@@ -244,7 +262,7 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
         })
     };
     match scene.connections.iter().find(is_loaded) {
-        Some(connection) if is_hermite => {
+        Some(connection) if own_curves.is_some() => {
             let (subsystem, input) = &connection.to;
             let message = format!(
                 "\"{}.{input}\" takes this signal and the load of a joint, which have different curves with Hermite coupling",
@@ -304,12 +322,12 @@ fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<St
 /// Where steps or degrees vary, the past nodes of the polynomials do: columns that stay in use must serve with any of them. With Hermite coupling there
 /// are as many powers as shapes, and between lengths they are found more easily: their responses do not pass through zero.
 fn measuring(coupling: &Coupling) -> Measuring {
-    let is_hermite = matches!(coupling.method, Method::Hermite { .. });
+    let own_curves = coupling.method.parameters().own_curves();
     let varies = coupling.step_control.is_some() || coupling.has_automatic_degree();
     let stay = coupling.jacobian == scene::Jacobian::Reuse;
     Measuring {
         increment: coupling.increment,
-        basis: match stay && (varies || is_hermite) {
+        basis: match stay && (varies || own_curves.is_some()) {
             true => Basis::Powers,
             false => Basis::Shapes,
         },

@@ -41,7 +41,8 @@ pub(super) fn step_size_of(
         (None, _) => (Rule::Equal, ANY_ERROR),
     };
     let subsystems = workers.subsystems.iter();
+    let tolerances = [control.tolerance, control.absolute_tolerance];
     let solvers = subsystems.map(|own| own.tolerance.unwrap_or_default());
-    let tolerance = Tolerance::new(&control, layout, solvers.collect(), &workers.now());
+    let tolerance = Tolerance::new(tolerances, layout, solvers.collect(), &workers.now());
     Some(StepSize::new(rule, control, coupling.macro_step, tolerance))
 }

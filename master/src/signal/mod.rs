@@ -1,5 +1,6 @@
 //! Coupling variables over macro time.
 //!
+//! * `degree`: degrees of polynomials;
 //! * `held`: values at one instant;
 //! * [`history`]: their values at past macro points and the polynomials through them;
 //! * [`curves`]: the curves of all variables over a step;
@@ -10,6 +11,7 @@
 
 pub mod attitude;
 pub mod curves;
+mod degree;
 mod held;
 pub mod history;
 pub mod interpolation_error;
@@ -17,6 +19,8 @@ mod nodes;
 pub mod share;
 
 pub use curves::{Curves, Lagrange};
+pub(crate) use degree::AUTOMATIC_DEGREE;
+pub use degree::Degree;
 pub use held::Held;
 pub use history::{Curve, History, MAX_DEGREE, Variables, combine, vector_at};
 pub use interpolation_error::ErrorShares;

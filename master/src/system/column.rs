@@ -1,7 +1,6 @@
 //! The response to one raised input, and how much it is raised.
 
 use crate::layout::{DrivenInput, Layout};
-use crate::scene::Increment;
 use serde::{Deserialize, Serialize};
 
 /// Relative increment when it is chosen automatically. Loads enter nearly linearly, so a large one costs no accuracy
@@ -13,6 +12,17 @@ const ABOVE_NOISE: f64 = 1e3;
 
 /// Relative increment of an exchanged variable when it is chosen automatically: its influence is not linear.
 const AUTOMATIC_EXCHANGED: f64 = 1e-6;
+
+/// Increments of the finite differences that give the coupling Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Increment {
+    /// Chosen so that the response stands well above the tolerance that the worker reports.
+    Automatic,
+    /// None where a worker offers directional derivatives; otherwise as automatic.
+    Derivatives,
+    /// eps max(1, |u|) for the coupling variable u; eps greater than 0 (Schweizer & Lu, Sect. 3.3).
+    Relative(f64),
+}
 
 /// Response of one subsystem's coupling outputs to one driven input at the end of the step, per unit of that input.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -22,7 +22,7 @@ pub mod solve;
 pub mod unknowns;
 
 pub use answers::{Differentiation, LookAhead, Outputs, Perturbation};
-pub use column::{Column, Response};
+pub use column::{Column, Increment, Response};
 pub use equations::System;
 pub use motion::motion_of;
 pub use point::Point;

@@ -1,7 +1,18 @@
 //! What the variants of Hermite coupling demand.
 
+use serde::Serialize;
+
 use crate::joint::Level;
-pub use crate::scene::Variant;
+
+/// What the multipliers of Hermite coupling are on a macro step: their conditions at its start `T_N` and its end `T_{N+1}`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Variant {
+    /// g'' = 0 at `T_N`; g = 0, g' = 0 at `T_{N+1}`: quadratic.
+    Apv,
+    /// Continuous at `T_N`; g = 0, g' = 0 at `T_{N+1}`: quadratic.
+    C0pv,
+}
 
 impl Variant {
     /// Whether `g'' = 0` at `T_N` determines the start value; otherwise it is the end value of the step before.

@@ -16,10 +16,9 @@ use std::ops::Range;
 
 use crate::joint::Level;
 use crate::layout::{DrivenInput, Layout};
-use crate::scene::Increment;
 use crate::signal::{Curves, Nodes, SharePolynomial};
 use crate::system::unknowns::Unknowns;
-use crate::system::{Column, Differentiation, LookAhead, Perturbation, Response};
+use crate::system::{Column, Differentiation, Increment, LookAhead, Perturbation, Response};
 
 use serde::{Deserialize, Serialize};
 

@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use crate::layout::Layout;
 use crate::results::StepDegrees;
-use crate::scene::{Method, highest_stable_degree};
 use crate::time::MOST_GROWTH;
 
 use choice::DegreeChoice;
@@ -33,9 +32,9 @@ enum Kind {
 }
 
 /// The groups whose degrees follow the estimates.
-#[derive(Debug, Clone)]
 pub struct AutomaticDegrees {
-    method: Method,
+    /// The highest degree of the multipliers' polynomials that is stable with a step of this length (s).
+    stable: Box<dyn Fn(f64) -> usize + Send>,
     /// Degrees of all steps, in place of a choice.
     given: Option<Vec<StepDegrees>>,
     state: State,
@@ -68,9 +67,9 @@ impl Group {
         (self.choice, self.next) = (choice, choice);
     }
 
-    fn highest(&self, method: Method, length: f64) -> usize {
+    fn highest(&self, stable: &dyn Fn(f64) -> usize, length: f64) -> usize {
         match self.kind {
-            Kind::Multipliers => self.highest.min(highest_stable_degree(method, length)),
+            Kind::Multipliers => self.highest.min(stable(length)),
             Kind::Exchanged => self.highest,
         }
     }
@@ -87,7 +86,7 @@ impl AutomaticDegrees {
     /// For the variables of `layout` for which `highest` tells the highest degree that all workers take; `None` if there are none. The
     /// first step has this length in s; `given` has the degrees of all steps if they are known.
     pub fn new(
-        method: Method,
+        stable: Box<dyn Fn(f64) -> usize + Send>,
         layout: &Layout,
         highest: StepDegrees,
         first_step: f64,
@@ -102,7 +101,7 @@ impl AutomaticDegrees {
                 choice: DegreeChoice::new(0),
                 next: DegreeChoice::new(0),
             };
-            let highest = group.highest(method, first_step);
+            let highest = group.highest(&stable, first_step);
             group.begin(DegreeChoice::new(highest));
             Some(group)
         };
@@ -114,7 +113,7 @@ impl AutomaticDegrees {
         .flatten()
         .collect();
         let mut own = Self {
-            method,
+            stable,
             given,
             state: State {
                 groups,
@@ -143,7 +142,7 @@ impl AutomaticDegrees {
         };
         for group in &mut self.state.groups {
             let prospects = prospects(group);
-            let highest = group.highest(self.method, longest);
+            let highest = group.highest(&self.stable, longest);
             group.next = group.choice;
             group.next.follow(&prospects, highest, purpose);
             let next = group.next.degree();

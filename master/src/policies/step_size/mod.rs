@@ -8,6 +8,7 @@
 //!
 //! a proportional-integral controller, so that the length does not swing; within the limits of [`Settings`].
 
+mod control;
 mod settings;
 
 use serde::{Deserialize, Serialize};
@@ -15,9 +16,9 @@ use serde::{Deserialize, Serialize};
 use crate::accuracy::{Estimate, Tolerance};
 use crate::policies::step_size::settings::SETTINGS;
 use crate::results::StepStatistics;
-use crate::scene::StepControl;
 use crate::time::MacroStep;
 
+pub use control::StepControl;
 pub use settings::Settings;
 
 /// Chooses the lengths of the macro steps.

@@ -1,5 +1,6 @@
 //! What sound scenes resolve to.
 
+use crate::methods::{Baumgarte, Explicit, Penalty, Weighted};
 use linchpin_proto::v1::{self, value::Kind};
 
 use super::super::{
@@ -29,11 +30,11 @@ fn the_example_resolves_to_what_it_says() {
     assert_eq!(scene.coupling.macro_step, 1e-3);
     assert_eq!(scene.coupling.degree, Degree::Fixed(0));
     assert_eq!(scene.coupling.increment, Increment::Automatic);
-    let expected = Method::Baumgarte {
+    let expected = Method::Baumgarte(Baumgarte {
         index: Index::Two,
         beta: 2e-3.into(),
         gamma: 0.0.into(),
-    };
+    });
     assert_eq!(scene.coupling.method, expected);
     let [mass1, mass2] = &scene.subsystems[..] else {
         panic!("{:?}", scene.subsystems)
@@ -73,12 +74,14 @@ fn a_file_reads_like_its_text() {
 
 #[test]
 fn the_index_follows_from_the_parameters() {
-    let baumgarte = |index, beta: f64, gamma: f64| Method::Baumgarte {
-        index,
-        beta: beta.into(),
-        gamma: gamma.into(),
+    let baumgarte = |index, beta: f64, gamma: f64| {
+        Method::Baumgarte(Baumgarte {
+            index,
+            beta: beta.into(),
+            gamma: gamma.into(),
+        })
     };
-    let weighted = |index, a, b| Method::Weighted { index, a, b };
+    let weighted = |index, a, b| Method::Weighted(Weighted { index, a, b });
     let (h, h2) = (1e-3, 1e-3 * 1e-3);
     for (settings, expected) in [
         ("method = 'baumgarte'", baumgarte(Index::One, 2.0 * h, h2)),
@@ -142,16 +145,18 @@ fn methods_without_an_index_have_their_own_parameters() {
     let mu = 10.0 * 1e-3;
     assert_eq!(
         method("method = 'explicit'\nmu = '10H'"),
-        Method::Explicit { mu: mu.into() }
+        Method::Explicit(Explicit { mu: mu.into() })
     );
 }
 
 #[test]
 fn a_penalty_has_springs_for_lengths_and_for_angles() {
-    let penalty = |order, lengths, angles| Method::Penalty {
-        order,
-        lengths,
-        angles,
+    let penalty = |order, lengths, angles| {
+        Method::Penalty(Penalty {
+            order,
+            lengths,
+            angles,
+        })
     };
     let spring = |stiffness, damping| Some(Spring { stiffness, damping });
     for (settings, expected) in [

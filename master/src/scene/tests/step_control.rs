@@ -1,6 +1,7 @@
 //! Variable macro steps in the scene.
 
 use super::*;
+use crate::methods::Baumgarte;
 use crate::scene::{Formula, Method};
 
 /// The example with `[coupling]` settings that make the macro step vary.
@@ -51,7 +52,7 @@ fn steps_that_are_given_move_the_defaults_of_the_others() {
 fn multiples_of_a_variable_step_stay_formulas() {
     let scene = controlled("tolerance = 1e-5").unwrap();
     let scene = scene.with(&["coupling.beta=3H".parse().unwrap()]).unwrap();
-    let Method::Baumgarte { beta, gamma, .. } = scene.coupling.method else {
+    let Method::Baumgarte(Baumgarte { beta, gamma, .. }) = scene.coupling.method else {
         panic!("{:?}", scene.coupling.method)
     };
     assert_eq!((beta.at(0.25), beta.at(0.5)), (0.75, 1.5));

@@ -1,6 +1,7 @@
 //! Stable or not by comparison with a reference run, for scenes of any kind.
 
 use linchpin_master::RunError;
+use linchpin_master::methods::Weighted;
 use linchpin_master::scene::{self, Coupling, Degree, Index, Method, Scene};
 
 use super::Simulated;
@@ -31,16 +32,16 @@ const REFERENCES: [(Method, usize, usize); 3] = [
     (BY_ACCELERATIONS, 2, 2),
     (BY_VELOCITIES, 0, 2),
 ];
-const BY_ACCELERATIONS: Method = Method::Weighted {
+const BY_ACCELERATIONS: Method = Method::Weighted(Weighted {
     index: Index::One,
     a: 2.0,
     b: 2.6,
-};
-const BY_VELOCITIES: Method = Method::Weighted {
+});
+const BY_VELOCITIES: Method = Method::Weighted(Weighted {
     index: Index::Two,
     a: 1.0,
     b: 0.0,
-};
+});
 
 impl Deviation {
     /// `smallest_step` in s is that of all points of the map, if these differ in their coupling only.

@@ -2,11 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::{Condition, SingularRow};
-use super::method::{Built, Method, Reached};
-use super::saved::{Saved, Unreadable};
 use crate::layout::Layout;
-use crate::scene::Formula;
+use crate::methods::condition::{Condition, SingularRow};
+use crate::methods::method::{Built, CouplingMethod, Reached};
+use crate::methods::saved::{Saved, Unreadable};
+use crate::reading::Formula;
 use crate::signal::{Curve, Curves, Held, History, Lagrange};
 use crate::system::solve::LinearSolver;
 use crate::system::unknowns::Unknowns;
@@ -15,7 +15,7 @@ use crate::system::{Outputs, System};
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so an evaluation at the macro point suffices
 /// and no macro step is repeated.
-pub struct Explicit {
+pub struct ExplicitCoupling {
     mu: Formula,
     rows: usize,
     solvers: Vec<LinearSolver>,
@@ -33,7 +33,7 @@ pub struct State {
     held: Vec<f64>,
 }
 
-impl Explicit {
+impl ExplicitCoupling {
     /// The method with time constant `mu` (s), from trial values of the coupling variables.
     pub fn build(mu: Formula, history: History, layout: &Layout) -> Built {
         let system = System::new(layout, Unknowns::ends(layout));
@@ -58,7 +58,7 @@ impl Explicit {
     }
 }
 
-impl Method for Explicit {
+impl CouplingMethod for ExplicitCoupling {
     fn predict(&mut self, length: f64) {
         self.length = length;
     }

@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::{Condition, SingularRow};
-use super::method::{Built, Corrected, LoadErrors, Method, Reached};
-use super::saved::{Saved, Unreadable};
 use crate::accuracy::{Attempts, CHORD_ORDER};
 use crate::layout::{Exchanged, Layout};
+use crate::methods::condition::{Condition, SingularRow};
+use crate::methods::method::{Built, Corrected, CouplingMethod, LoadErrors, Reached};
+use crate::methods::saved::{Saved, Unreadable};
 use crate::signal::{Curve, Curves, ErrorShares, History, Lagrange, Nodes};
 use crate::system::solve::LinearSolver;
 use crate::system::unknowns::Unknowns;
@@ -96,7 +96,7 @@ impl SemiImplicit {
     }
 }
 
-impl Method for SemiImplicit {
+impl CouplingMethod for SemiImplicit {
     /// S1 eq. (56).
     fn predict(&mut self, length: f64) {
         self.length = length;

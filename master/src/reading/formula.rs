@@ -51,7 +51,7 @@ impl Unit {
 
 /// The macro steps that a formula is taken for, in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Steps {
+pub(crate) enum Steps {
     /// One for the whole run.
     Fixed(f64),
     /// They vary between the least and the greatest.
@@ -68,19 +68,19 @@ pub struct Formula {
 }
 
 impl Formula {
-    pub(super) const ZERO: Self = Self::multiple(0.0, Unit::Plain);
+    pub(crate) const ZERO: Self = Self::multiple(0.0, Unit::Plain);
 
     pub(crate) const fn multiple(factor: f64, unit: Unit) -> Self {
         Self { factor, unit }
     }
 
     /// Reads a number or a multiple of H; it must not be negative.
-    pub(super) fn read(field: &Field<'_>, unit: Unit, problems: &mut Problems<'_>) -> Option<Self> {
+    pub(crate) fn read(field: &Field<'_>, unit: Unit, problems: &mut Problems<'_>) -> Option<Self> {
         Self::read_within(field, unit, &NOT_NEGATIVE, problems)
     }
 
     /// Like [`Formula::read`], but zero is out of range.
-    pub(super) fn read_positive(
+    pub(crate) fn read_positive(
         field: &Field<'_>,
         unit: Unit,
         problems: &mut Problems<'_>,
@@ -108,16 +108,16 @@ impl Formula {
         }
     }
 
-    pub(super) fn unit(self) -> Unit {
+    pub(crate) fn unit(self) -> Unit {
         self.unit
     }
 
-    pub(super) fn is_zero(self) -> bool {
+    pub(crate) fn is_zero(self) -> bool {
         self.factor == 0.0
     }
 
     /// The number itself, of a formula that is no multiple of H.
-    pub(super) fn number(self) -> f64 {
+    pub(crate) fn number(self) -> f64 {
         self.factor
     }
 
@@ -134,7 +134,7 @@ impl Formula {
 
     /// What stands in the resolved scene: the formula where the macro step varies within `steps`, else its number; in neither
     /// case may a value over- or underflow.
-    pub(super) fn over(self, steps: Steps, key: &str) -> Result<Self, SceneErrorKind> {
+    pub(crate) fn over(self, steps: Steps, key: &str) -> Result<Self, SceneErrorKind> {
         match steps {
             Steps::Fixed(macro_step) => self.checked_at(macro_step, key).map(Self::from),
             Steps::Between(least, greatest) => {
@@ -146,7 +146,7 @@ impl Formula {
     }
 
     /// The number that it is for the macro step of the whole run; methods whose parameters are numbers refuse steps that vary.
-    pub(super) fn fixed(self, steps: Steps, key: &str) -> Result<f64, SceneErrorKind> {
+    pub(crate) fn fixed(self, steps: Steps, key: &str) -> Result<f64, SceneErrorKind> {
         match steps {
             Steps::Fixed(macro_step) => self.checked_at(macro_step, key),
             Steps::Between(..) => Ok(self.factor),

@@ -13,25 +13,25 @@ use super::error_kind::SceneErrorKind;
 use super::place::{Place, Source, Spot};
 
 /// The entries of a table by key.
-pub(super) type Table = BTreeMap<String, Entry>;
+pub(crate) type Table = BTreeMap<String, Entry>;
 
 /// A key with its value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Entry {
-    pub(super) key_spot: Spot,
-    pub(super) node: Node,
+pub(crate) struct Entry {
+    pub(crate) key_spot: Spot,
+    pub(crate) node: Node,
 }
 
 /// A value and where it stands.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
-    pub(super) spot: Spot,
-    pub(super) value: Value,
+pub(crate) struct Node {
+    pub(crate) spot: Spot,
+    pub(crate) value: Value,
 }
 
 /// What TOML can say.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Text(String),
     Integer(i64),
     /// An integer of more than 64 bits.
@@ -60,7 +60,7 @@ impl fmt::Display for Value {
 
 impl Node {
     /// Takes over a parsed value whose spans count from `offset` in the source.
-    pub(super) fn from_toml(parsed: &Spanned<DeValue<'_>>, source: usize, offset: usize) -> Self {
+    pub(crate) fn from_toml(parsed: &Spanned<DeValue<'_>>, source: usize, offset: usize) -> Self {
         let value = match parsed.get_ref() {
             DeValue::String(text) => Value::Text(text.to_string()),
             DeValue::Integer(integer) => integer_value(integer),
@@ -83,7 +83,7 @@ impl Node {
     }
 
     /// The same value as one-line TOML, to be read again.
-    pub(super) fn to_toml(&self) -> toml::Value {
+    pub(crate) fn to_toml(&self) -> toml::Value {
         match &self.value {
             Value::Text(text) | Value::Date(text) | Value::Oversized(text) => {
                 toml::Value::String(text.clone())
@@ -102,7 +102,7 @@ impl Node {
     }
 
     /// The same value with its places in another source.
-    pub(super) fn in_source(&self, source: usize) -> Self {
+    pub(crate) fn in_source(&self, source: usize) -> Self {
         let value = match &self.value {
             Value::List(items) => {
                 Value::List(items.iter().map(|item| item.in_source(source)).collect())
@@ -126,12 +126,12 @@ impl Node {
     }
 
     /// True if this is a table whose `name` is the given one.
-    pub(super) fn is_named(&self, name: &str) -> bool {
+    pub(crate) fn is_named(&self, name: &str) -> bool {
         self.name() == Some(name)
     }
 
     /// The text under the key `name` of a table.
-    pub(super) fn name(&self) -> Option<&str> {
+    pub(crate) fn name(&self) -> Option<&str> {
         let Value::Table(table) = &self.value else {
             return None;
         };
@@ -167,17 +167,17 @@ fn spot_of<T>(spanned: &Spanned<T>, source: usize, offset: usize) -> Spot {
 
 /// A scene as written, together with the overrides that were put into it.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Written {
+pub(crate) struct Written {
     /// The file, then one source for each override or study.
-    pub(super) sources: Vec<Arc<Source>>,
+    pub(crate) sources: Vec<Arc<Source>>,
     /// What the file is, for messages.
-    pub(super) document: &'static str,
-    pub(super) root: Node,
+    pub(crate) document: &'static str,
+    pub(crate) root: Node,
 }
 
 impl Written {
     /// Parses a file; `document` says what it is. All mistakes of its text: the first one of every line.
-    pub(super) fn parse(
+    pub(crate) fn parse(
         text: &str,
         origin: &str,
         document: &'static str,
@@ -219,24 +219,24 @@ impl Written {
     }
 
     /// The folder of the file, from which it counts its paths.
-    pub(super) fn folder(&self) -> &Path {
+    pub(crate) fn folder(&self) -> &Path {
         let file = self.sources.first().and_then(|file| file.path());
         file.and_then(Path::parent).unwrap_or(Path::new(""))
     }
 
     /// The text of the file.
-    pub(super) fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         self.sources.first().map_or("", |file| file.text())
     }
 
     /// The place of a spot.
-    pub(super) fn place(&self, spot: &Spot) -> Option<Place> {
+    pub(crate) fn place(&self, spot: &Spot) -> Option<Place> {
         let source = self.sources.get(spot.source)?;
         Some(Place::new(source, spot))
     }
 
     /// The entry of a list at the top level, such as `subsystem`, by its name.
-    pub(super) fn list_entry(&self, list: &str, name: &str) -> Option<&Node> {
+    pub(crate) fn list_entry(&self, list: &str, name: &str) -> Option<&Node> {
         let Value::Table(table) = &self.root.value else {
             return None;
         };
@@ -247,7 +247,7 @@ impl Written {
     }
 
     /// The value at a dotted key, or at the nearest key around it; entries of lists go by their name.
-    pub(super) fn nearest_node(&self, key: &str) -> Option<&Node> {
+    pub(crate) fn nearest_node(&self, key: &str) -> Option<&Node> {
         let mut found = None;
         let mut node = &self.root;
         for part in key.split('.') {

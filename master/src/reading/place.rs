@@ -16,7 +16,7 @@ enum Origin {
 
 /// A text that holds settings: the scene file, or one override.
 #[derive(Clone, PartialEq, Eq)]
-pub(super) struct Source {
+pub(crate) struct Source {
     origin: Origin,
     text: String,
 }
@@ -31,26 +31,26 @@ impl fmt::Debug for Source {
 }
 
 impl Source {
-    pub(super) fn file(origin: &str, text: &str) -> Self {
+    pub(crate) fn file(origin: &str, text: &str) -> Self {
         Self {
             origin: Origin::File(origin.to_owned()),
             text: text.to_owned(),
         }
     }
 
-    pub(super) fn text(&self) -> &str {
+    pub(crate) fn text(&self) -> &str {
         &self.text
     }
 
     /// The path of the file.
-    pub(super) fn path(&self) -> Option<&Path> {
+    pub(crate) fn path(&self) -> Option<&Path> {
         match &self.origin {
             Origin::File(name) => Some(Path::new(name)),
             Origin::Override => None,
         }
     }
 
-    pub(super) fn over_ride(text: String) -> Self {
+    pub(crate) fn over_ride(text: String) -> Self {
         Self {
             origin: Origin::Override,
             text,
@@ -60,22 +60,22 @@ impl Source {
 
 /// A range of bytes in one of the sources of a scene; the first source is the file.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Spot {
-    pub(super) source: usize,
-    pub(super) start: usize,
-    pub(super) end: usize,
+pub(crate) struct Spot {
+    pub(crate) source: usize,
+    pub(crate) start: usize,
+    pub(crate) end: usize,
 }
 
 impl Spot {
     /// The same range in another source.
-    pub(super) fn in_source(&self, source: usize) -> Self {
+    pub(crate) fn in_source(&self, source: usize) -> Self {
         Self {
             source,
             ..self.clone()
         }
     }
 
-    pub(super) fn new(source: usize, span: Range<usize>) -> Self {
+    pub(crate) fn new(source: usize, span: Range<usize>) -> Self {
         Self {
             source,
             start: span.start,
@@ -99,7 +99,7 @@ pub struct Place {
 }
 
 impl Place {
-    pub(super) fn new(source: &Arc<Source>, spot: &Spot) -> Self {
+    pub(crate) fn new(source: &Arc<Source>, spot: &Spot) -> Self {
         let before = source.text.get(..spot.start).unwrap_or(&source.text);
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         Self {

@@ -6,7 +6,7 @@ use super::nearest::nearest;
 use super::reader::{Field, Problems};
 
 /// Subsystem and variable of a field such as `"crank.rate"`; `allowed` says what it may be.
-pub(super) fn read_variable(
+pub(crate) fn read_variable(
     field: &Field<'_>,
     allowed: &'static str,
     subsystems: &Registry<'_>,
@@ -31,7 +31,7 @@ pub(super) fn read_variable(
 }
 
 /// The place of what a field refers to by name.
-pub(super) fn find_name(
+pub(crate) fn find_name(
     name: &str,
     field: &Field<'_>,
     subsystems: &Registry<'_>,

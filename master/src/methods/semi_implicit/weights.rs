@@ -1,10 +1,10 @@
 //! The index of a coupling method and the two parameters from which it follows.
 
-use super::error_kind::SceneErrorKind;
-use super::formula::{Formula, Steps};
-use super::place::Spot;
-use super::reader::{Field, Problems, Section};
-use super::resolved::Index;
+use super::index::Index;
+use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::formula::{Formula, Steps};
+use crate::reading::place::Spot;
+use crate::reading::reader::{Field, Problems, Section};
 
 /// The two parameters of a method, the weights of velocity and acceleration: their names and defaults.
 pub(super) struct Weights {

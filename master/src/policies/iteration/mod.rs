@@ -1,11 +1,14 @@
 //! How often a macro step is corrected, and when the columns of the coupling Jacobian are asked for afresh.
 
+mod rules;
+
 use serde::{Deserialize, Serialize};
 
-use super::norm::{Change, MOST_LEFT};
+use crate::accuracy::{Change, MOST_LEFT};
 use crate::results::Passes;
-use crate::scene::{Coupling, Iterations, Jacobian, Otherwise};
 use crate::time::MacroStep;
+
+pub use rules::{Iterations, Jacobian, Otherwise};
 
 /// When columns are asked for afresh. A scene does not change these numbers; run.json shows them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -118,13 +121,12 @@ pub struct State {
 }
 
 impl IterationControl {
-    /// Under the rules of the scene.
-    pub fn new(coupling: &Coupling) -> Self {
-        let varies = coupling.step_control.is_some();
+    /// Under the rules of the scene; the macro step `varies` or not.
+    pub fn new(rule: Jacobian, iterations: Option<Iterations>, varies: bool) -> Self {
         Self {
             settings: Settings::new(varies),
-            rule: coupling.jacobian,
-            iterations: coupling.iterations,
+            rule,
+            iterations,
             unknown_rate: varies.then_some(0.0),
             state: State {
                 are_fresh: true,

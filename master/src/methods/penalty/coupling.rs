@@ -13,17 +13,17 @@ use std::ops::Range;
 
 use serde::{Deserialize, Serialize};
 
-use super::condition::SingularRow;
-use super::method::{Built, Method, Reached};
-use super::saved::{Saved, Unreadable};
+use super::spring::Spring;
 use crate::joint::Level;
 use crate::layout::{Layout, Row};
-use crate::scene::{Order, Scene, SceneErrors, Spring};
+use crate::methods::condition::SingularRow;
+use crate::methods::method::{Built, CouplingMethod, Order, Reached};
+use crate::methods::saved::{Saved, Unreadable};
 use crate::signal::{Curve, Curves, History, Lagrange, Variables};
 use crate::system::{Outputs, motion_of};
 
 /// A penalty coupling.
-pub struct Penalty {
+pub struct PenaltyCoupling {
     springs: Vec<Spring>,
     order: Order,
     /// Places of the coupling outputs of each subsystem among those of all, one behind the other.
@@ -44,7 +44,7 @@ pub struct State {
     outputs: Option<History>,
 }
 
-impl Penalty {
+impl PenaltyCoupling {
     /// One spring for each row; `history` holds the exchanged variables at the first macro point with these `outputs`.
     /// With Gauss-Seidel the outputs are extrapolated with `output_degree`.
     pub fn build(
@@ -90,7 +90,7 @@ impl Penalty {
     }
 }
 
-impl Method for Penalty {
+impl CouplingMethod for PenaltyCoupling {
     fn predict(&mut self, length: f64) {
         self.length = length;
         if let Some(outputs) = &self.state.outputs {
@@ -215,33 +215,4 @@ fn extrapolate(history: &History, step: f64, ends: &mut [f64]) {
     for (variable, end) in ends.iter_mut().enumerate() {
         *end = history.value(variable, Curve::Extrapolated, step, step);
     }
-}
-
-/// The spring of each row: that for lengths or that for angles.
-///
-/// # Errors
-/// The scene gives none of the kind that a joint needs.
-pub fn springs_of(
-    scene: &Scene,
-    lengths: Option<Spring>,
-    angles: Option<Spring>,
-    layout: &Layout,
-) -> Result<Vec<Spring>, SceneErrors> {
-    let spring_of = |row: usize| {
-        let bound = layout.joint_of(row);
-        let condition = bound.joint.condition(layout.rows[row].condition);
-        let (spring, key, example, what) = match condition.is_length() {
-            true => (lengths, "stiffness", "1e6", "lengths"),
-            false => (angles, "angular_stiffness", "1e4", "angles"),
-        };
-        spring.ok_or_else(|| {
-            let message = format!(
-                "joint \"{}\" holds {what}, but the penalty coupling has no spring for them",
-                bound.name
-            );
-            let help = format!("add `{key} = {example}` to [coupling]");
-            scene.error("coupling.method", message, Some(help))
-        })
-    };
-    (0..layout.rows.len()).map(spring_of).collect()
 }

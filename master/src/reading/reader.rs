@@ -7,31 +7,31 @@ use super::place::Spot;
 use super::written::{Entry, Node, Table, Value, Written};
 
 /// The mistakes found so far.
-pub(super) struct Problems<'w> {
-    pub(super) written: &'w Written,
+pub(crate) struct Problems<'w> {
+    pub(crate) written: &'w Written,
     found: Vec<SceneError>,
 }
 
 impl<'w> Problems<'w> {
-    pub(super) fn new(written: &'w Written) -> Self {
+    pub(crate) fn new(written: &'w Written) -> Self {
         Self {
             written,
             found: Vec::new(),
         }
     }
 
-    pub(super) fn report(&mut self, spot: &Spot, kind: SceneErrorKind) {
+    pub(crate) fn report(&mut self, spot: &Spot, kind: SceneErrorKind) {
         self.found
             .push(SceneError::new(self.written.place(spot), kind));
     }
 
     /// Takes over a mistake that was found elsewhere.
-    pub(super) fn keep(&mut self, error: SceneError) {
+    pub(crate) fn keep(&mut self, error: SceneError) {
         self.found.push(error);
     }
 
     /// The result, if nothing is wrong.
-    pub(super) fn finish<T>(self, result: Option<T>) -> Result<T, SceneErrors> {
+    pub(crate) fn finish<T>(self, result: Option<T>) -> Result<T, SceneErrors> {
         match result {
             Some(result) if self.found.is_empty() => Ok(result),
             _ => Err(SceneErrors::new(self.found)),
@@ -40,20 +40,20 @@ impl<'w> Problems<'w> {
 }
 
 /// Numbers that a key may have, and how to say so.
-pub(super) struct Range {
-    pub(super) words: &'static str,
-    pub(super) contains: fn(f64) -> bool,
+pub(crate) struct Range {
+    pub(crate) words: &'static str,
+    pub(crate) contains: fn(f64) -> bool,
 }
 
-pub(super) const FINITE: Range = Range {
+pub(crate) const FINITE: Range = Range {
     words: "a finite number",
     contains: |_| true,
 };
-pub(super) const POSITIVE: Range = Range {
+pub(crate) const POSITIVE: Range = Range {
     words: "a finite number greater than 0",
     contains: |value| value > 0.0,
 };
-pub(super) const NOT_NEGATIVE: Range = Range {
+pub(crate) const NOT_NEGATIVE: Range = Range {
     words: "a finite number, 0 or greater",
     contains: |value| value >= 0.0,
 };
@@ -63,17 +63,17 @@ const LARGEST_EXACT_INTEGER: u64 = 1 << 53;
 
 /// A value with its key.
 #[derive(Clone)]
-pub(super) struct Field<'w> {
-    pub(super) key: String,
-    pub(super) node: &'w Node,
+pub(crate) struct Field<'w> {
+    pub(crate) key: String,
+    pub(crate) node: &'w Node,
 }
 
 impl<'w> Field<'w> {
-    pub(super) fn report(&self, kind: SceneErrorKind, problems: &mut Problems<'_>) {
+    pub(crate) fn report(&self, kind: SceneErrorKind, problems: &mut Problems<'_>) {
         problems.report(&self.node.spot, kind);
     }
 
-    pub(super) fn wrong_type<T>(
+    pub(crate) fn wrong_type<T>(
         &self,
         allowed: &'static str,
         problems: &mut Problems<'_>,
@@ -87,7 +87,7 @@ impl<'w> Field<'w> {
         None
     }
 
-    pub(super) fn out_of_range<T>(&self, allowed: &str, problems: &mut Problems<'_>) -> Option<T> {
+    pub(crate) fn out_of_range<T>(&self, allowed: &str, problems: &mut Problems<'_>) -> Option<T> {
         let kind = SceneErrorKind::OutOfRange {
             key: self.key.clone(),
             allowed: allowed.to_owned(),
@@ -98,7 +98,7 @@ impl<'w> Field<'w> {
     }
 
     /// A finite number of the given range.
-    pub(super) fn number(&self, range: &Range, problems: &mut Problems<'_>) -> Option<f64> {
+    pub(crate) fn number(&self, range: &Range, problems: &mut Problems<'_>) -> Option<f64> {
         let value = match self.node.value {
             Value::Float(value) => value,
             Value::Integer(value) if value.unsigned_abs() <= LARGEST_EXACT_INTEGER => value as f64,
@@ -118,7 +118,7 @@ impl<'w> Field<'w> {
     }
 
     /// A whole number from `least` to `most`.
-    pub(super) fn whole(
+    pub(crate) fn whole(
         &self,
         least: usize,
         most: usize,
@@ -134,12 +134,12 @@ impl<'w> Field<'w> {
         }
     }
 
-    pub(super) fn text(&self, problems: &mut Problems<'_>) -> Option<&'w str> {
+    pub(crate) fn text(&self, problems: &mut Problems<'_>) -> Option<&'w str> {
         self.peek_text()
             .or_else(|| self.wrong_type("a text in quotes", problems))
     }
 
-    pub(super) fn flag(&self, problems: &mut Problems<'_>) -> Option<bool> {
+    pub(crate) fn flag(&self, problems: &mut Problems<'_>) -> Option<bool> {
         match self.node.value {
             Value::Flag(flag) => Some(flag),
             _ => self.wrong_type("true or false", problems),
@@ -147,7 +147,7 @@ impl<'w> Field<'w> {
     }
 
     /// The text, if it is one; nothing is reported.
-    pub(super) fn peek_text(&self) -> Option<&'w str> {
+    pub(crate) fn peek_text(&self) -> Option<&'w str> {
         match &self.node.value {
             Value::Text(text) => Some(text),
             _ => None,
@@ -155,7 +155,7 @@ impl<'w> Field<'w> {
     }
 
     /// One or more texts in a list.
-    pub(super) fn texts(
+    pub(crate) fn texts(
         &self,
         allowed: &'static str,
         problems: &mut Problems<'_>,
@@ -171,7 +171,7 @@ impl<'w> Field<'w> {
     }
 
     /// The choice that a text stands for.
-    pub(super) fn choice<T: Copy>(
+    pub(crate) fn choice<T: Copy>(
         &self,
         choices: &[(&str, T)],
         problems: &mut Problems<'_>,
@@ -192,7 +192,7 @@ impl<'w> Field<'w> {
     }
 
     /// A name of letters, digits, `_` and `-`.
-    pub(super) fn name(&self, problems: &mut Problems<'_>) -> Option<&'w str> {
+    pub(crate) fn name(&self, problems: &mut Problems<'_>) -> Option<&'w str> {
         let name = self.text(problems)?;
         if is_name(name) {
             return Some(name);
@@ -205,7 +205,7 @@ impl<'w> Field<'w> {
         None
     }
 
-    pub(super) fn items(
+    pub(crate) fn items(
         &self,
         allowed: &'static str,
         problems: &mut Problems<'_>,
@@ -220,7 +220,7 @@ impl<'w> Field<'w> {
         Some(items.iter().enumerate().map(field).collect())
     }
 
-    pub(super) fn section(&self, problems: &mut Problems<'_>) -> Option<Section<'w>> {
+    pub(crate) fn section(&self, problems: &mut Problems<'_>) -> Option<Section<'w>> {
         match &self.node.value {
             Value::Table(table) => Some(Section {
                 key: self.key.clone(),
@@ -233,7 +233,7 @@ impl<'w> Field<'w> {
 }
 
 /// Whether a text is one or more letters, digits, `_` and `-`.
-pub(super) fn is_name(text: &str) -> bool {
+pub(crate) fn is_name(text: &str) -> bool {
     let allowed = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     !text.is_empty() && text.chars().all(allowed)
 }
@@ -248,15 +248,15 @@ fn whole_range(least: usize, most: usize) -> String {
 
 /// A table with its key.
 #[derive(Clone)]
-pub(super) struct Section<'w> {
-    pub(super) key: String,
-    pub(super) spot: &'w Spot,
-    pub(super) table: &'w Table,
+pub(crate) struct Section<'w> {
+    pub(crate) key: String,
+    pub(crate) spot: &'w Spot,
+    pub(crate) table: &'w Table,
 }
 
 impl<'w> Section<'w> {
     /// The whole scene.
-    pub(super) fn root(written: &'w Written, table: &'w Table) -> Self {
+    pub(crate) fn root(written: &'w Written, table: &'w Table) -> Self {
         Self {
             key: String::new(),
             spot: &written.root.spot,
@@ -264,7 +264,7 @@ impl<'w> Section<'w> {
         }
     }
 
-    pub(super) fn key_of(&self, key: &str) -> String {
+    pub(crate) fn key_of(&self, key: &str) -> String {
         if self.key.is_empty() {
             key.to_owned()
         } else {
@@ -272,18 +272,18 @@ impl<'w> Section<'w> {
         }
     }
 
-    pub(super) fn get(&self, key: &str) -> Option<Field<'w>> {
+    pub(crate) fn get(&self, key: &str) -> Option<Field<'w>> {
         self.table.get(key).map(|entry| self.field(key, entry))
     }
 
     /// All entries of a table whose keys the scene's author chooses.
-    pub(super) fn fields(&self) -> impl Iterator<Item = (&'w str, Field<'w>)> {
+    pub(crate) fn fields(&self) -> impl Iterator<Item = (&'w str, Field<'w>)> {
         self.table
             .iter()
             .map(|(key, entry)| (key.as_str(), self.field(key, entry)))
     }
 
-    pub(super) fn field(&self, key: &str, entry: &'w Entry) -> Field<'w> {
+    pub(crate) fn field(&self, key: &str, entry: &'w Entry) -> Field<'w> {
         Field {
             key: self.key_of(key),
             node: &entry.node,
@@ -291,7 +291,7 @@ impl<'w> Section<'w> {
     }
 
     /// A field that must be there; `example` is a line that would do.
-    pub(super) fn require(
+    pub(crate) fn require(
         &self,
         key: &'static str,
         example: &'static str,
@@ -310,7 +310,7 @@ impl<'w> Section<'w> {
     }
 
     /// Reports every key that is not among the allowed ones.
-    pub(super) fn allow_only(&self, allowed: &[&str], problems: &mut Problems<'_>) {
+    pub(crate) fn allow_only(&self, allowed: &[&str], problems: &mut Problems<'_>) {
         for (key, entry) in self.table {
             if !allowed.contains(&key.as_str()) {
                 self.report_unknown_key(key, entry, allowed, problems);
@@ -318,7 +318,7 @@ impl<'w> Section<'w> {
         }
     }
 
-    pub(super) fn report_unknown_key(
+    pub(crate) fn report_unknown_key(
         &self,
         key: &str,
         entry: &Entry,
@@ -334,7 +334,7 @@ impl<'w> Section<'w> {
         problems.report(&entry.key_spot, kind);
     }
 
-    pub(super) fn report_invalid_key(&self, key: &str, entry: &Entry, problems: &mut Problems<'_>) {
+    pub(crate) fn report_invalid_key(&self, key: &str, entry: &Entry, problems: &mut Problems<'_>) {
         let kind = SceneErrorKind::InvalidKey {
             section: self.title(problems),
             key: key.to_owned(),

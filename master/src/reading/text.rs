@@ -7,7 +7,7 @@ use super::error::{SceneError, SceneErrors};
 use super::error_kind::SceneErrorKind;
 
 /// The text of a file, which is called `document` in messages.
-pub(super) fn text_of(path: &Path, document: &'static str) -> Result<String, SceneErrors> {
+pub(crate) fn text_of(path: &Path, document: &'static str) -> Result<String, SceneErrors> {
     let bytes = std::fs::read(path).map_err(|source| {
         let path = path.to_owned();
         let kind = match source.kind() {

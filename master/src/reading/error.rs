@@ -17,7 +17,7 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    pub(super) fn new(place: Option<Place>, kind: SceneErrorKind) -> Self {
+    pub(crate) fn new(place: Option<Place>, kind: SceneErrorKind) -> Self {
         Self {
             place,
             case: None,
@@ -65,7 +65,7 @@ pub struct SceneErrors {
 }
 
 impl SceneErrors {
-    pub(super) fn new(mut errors: Vec<SceneError>) -> Self {
+    pub(crate) fn new(mut errors: Vec<SceneError>) -> Self {
         errors.sort_by_key(|error| {
             let place = error.place.as_ref();
             place.map(|place| (place.is_override(), place.span.start))

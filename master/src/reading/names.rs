@@ -6,7 +6,7 @@ use super::error_kind::SceneErrorKind;
 use super::reader::{Field, Problems, Section};
 
 /// Names in use, and who has them.
-pub(super) struct Registry<'w> {
+pub(crate) struct Registry<'w> {
     owner: &'static str,
     positions: BTreeMap<&'w str, usize>,
     fields: Vec<Option<Field<'w>>>,
@@ -14,7 +14,7 @@ pub(super) struct Registry<'w> {
 
 impl<'w> Registry<'w> {
     /// Collects the names of a list of tables and reports those that are given twice or taken by `others`.
-    pub(super) fn collect(
+    pub(crate) fn collect(
         owner: &'static str,
         sections: &[Section<'w>],
         others: Option<&Registry<'w>>,
@@ -48,12 +48,12 @@ impl<'w> Registry<'w> {
         Some((self.owner, self.fields.get(position)?.as_ref()?))
     }
 
-    pub(super) fn position(&self, name: &str) -> Option<usize> {
+    pub(crate) fn position(&self, name: &str) -> Option<usize> {
         self.positions.get(name).copied()
     }
 
     /// The name at a position that [`Registry::position`] gave.
-    pub(super) fn name(&self, position: usize) -> String {
+    pub(crate) fn name(&self, position: usize) -> String {
         self.positions
             .iter()
             .find(|(_, taken)| **taken == position)
@@ -61,7 +61,7 @@ impl<'w> Registry<'w> {
             .unwrap_or_default()
     }
 
-    pub(super) fn names(&self) -> impl Iterator<Item = &'w str> {
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'w str> {
         self.positions.keys().copied()
     }
 }

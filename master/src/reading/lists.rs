@@ -3,7 +3,7 @@
 use super::reader::{Problems, Section};
 
 /// The tables of a list, each under its name.
-pub(super) fn sections<'w>(
+pub(crate) fn sections<'w>(
     root: &Section<'w>,
     key: &'static str,
     problems: &mut Problems<'_>,
@@ -33,7 +33,7 @@ pub(super) fn sections<'w>(
 }
 
 /// All or nothing, but every element is read.
-pub(super) fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
+pub(crate) fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
     let read: Vec<Option<T>> = items.iter().map(read).collect();
     read.into_iter().collect()
 }
