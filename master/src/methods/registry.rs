@@ -1,14 +1,11 @@
 //! Which coupling methods there are: the only place that names them, a line for each.
 
-use serde::Serialize;
-
-use super::definition::{Definition, Parameters};
-use super::{explicit, hermite, penalty, semi_implicit};
+use super::definition::Definition;
 use crate::reading::formula::Steps;
 use crate::reading::reader::{Problems, Section};
 
 /// What a scene may know of a method before it has parameters.
-pub(crate) struct Entry {
+pub(crate) struct Entry<M: 'static> {
     /// Its name in a scene.
     pub name: &'static str,
     /// See [`Definition::KEYS`].
@@ -22,12 +19,13 @@ pub(crate) struct Entry {
     /// See [`Definition::EXCHANGED_DEGREE`].
     pub exchanged_degree: Option<usize>,
     /// See [`Definition::read`].
-    pub read: fn(&Section<'_>, Option<Steps>, &mut Problems<'_>) -> Option<Method>,
+    pub read: fn(&Section<'_>, Option<Steps>, &mut Problems<'_>) -> Option<M>,
 }
 
-impl Entry {
-    const fn of<T: Definition>(
-        read: fn(&Section<'_>, Option<Steps>, &mut Problems<'_>) -> Option<Method>,
+impl<M> Entry<M> {
+    /// That of a method.
+    pub(super) const fn of<T: Definition>(
+        read: fn(&Section<'_>, Option<Steps>, &mut Problems<'_>) -> Option<M>,
     ) -> Self {
         Self {
             name: T::NAME,
@@ -41,46 +39,44 @@ impl Entry {
     }
 }
 
-macro_rules! methods {
-    ($($(#[cfg($when:meta)])? $name:ident($parameters:ty): $doc:literal,)*) => {
+/// Makes the folders of the methods modules, and the type `Method` of their parameters, any of them.
+macro_rules! registry {
+    ($($(#[cfg($when:meta)])? $folder:ident { $($(#[cfg($own:meta)])? $name:ident: $doc:literal),* })*) => {
+        $($(#[cfg($when)])? mod $folder;)*
+        $($(#[cfg($when)])? pub use $folder::{$($name),*};)*
+
         /// What is demanded of the joints at the macro points, and how the multipliers follow from it.
         ///
         /// Serialises with its name in a scene under `name`, and its parameters.
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+        #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
         #[serde(tag = "name", rename_all = "kebab-case")]
         pub enum Method {
-            $($(#[cfg($when)])? #[doc = $doc] $name($parameters),)*
+            $($($(#[cfg($own)])? #[doc = $doc] $name($name),)*)*
         }
 
         impl Method {
             /// All methods.
-            pub(crate) const ALL: &'static [Entry] = &[
-                $($(#[cfg($when)])? Entry::of::<$parameters>(|section, steps, problems| {
-                    <$parameters>::read(section, steps, problems).map(Self::$name)
-                }),)*
+            pub(crate) const ALL: &'static [registry::Entry<Self>] = &[
+                $($($(#[cfg($own)])? registry::Entry::of::<$name>(|section, steps, problems| {
+                    <$name as definition::Definition>::read(section, steps, problems).map(Self::$name)
+                }),)*)*
             ];
 
             /// Whether it corrects its prediction.
             pub fn corrects(&self) -> bool {
                 match self {
-                    $($(#[cfg($when)])? Self::$name(_) => <$parameters>::CORRECTS,)*
+                    $($($(#[cfg($own)])? Self::$name(_) => <$name as definition::Definition>::CORRECTS,)*)*
                 }
             }
 
             /// What follows from its parameters.
             pub fn parameters(&self) -> &dyn Parameters {
                 match self {
-                    $($(#[cfg($when)])? Self::$name(own) => own,)*
+                    $($($(#[cfg($own)])? Self::$name(own) => own,)*)*
                 }
             }
         }
     };
 }
 
-methods! {
-    Hermite(hermite::Hermite): "Polynomials of their own on every macro step.",
-    Baumgarte(semi_implicit::Baumgarte): "Schweizer & Lu, method 1: g + beta g' + gamma g'' = 0.",
-    Weighted(semi_implicit::Weighted): "Schweizer & Lu, method 2: weighted multipliers of position, velocity and acceleration.",
-    Explicit(explicit::Explicit): "The explicit index-1 method of Gu & Asada: (mu d/dt + 1)^2 g = 0.",
-    Penalty(penalty::Penalty): "Force of a spring and damper in place of the multiplier, on both ends.",
-}
+pub(super) use registry;

@@ -62,7 +62,7 @@ const OTHERWISE: [(&str, Otherwise); 3] = [
 /// Corrections that have not converged after so many passes do not converge.
 const MOST_PASSES: usize = 1000;
 
-impl Entry {
+impl Entry<Method> {
     /// Keys that not every method has.
     fn parameters(&self) -> impl Iterator<Item = &'static str> {
         let corrected: &[&str] = if self.corrects { &CORRECTED } else { &[] };
@@ -110,7 +110,8 @@ pub(super) fn read(
     duration: Option<f64>,
     problems: &mut Problems<'_>,
 ) -> Option<Coupling> {
-    let choices: Vec<(&str, &Entry)> = Method::ALL.iter().map(|own| (own.name, own)).collect();
+    let choices: Vec<(&str, &Entry<Method>)> =
+        Method::ALL.iter().map(|own| (own.name, own)).collect();
     let kind = section
         .require("method", "method = \"baumgarte\"", problems)
         .and_then(|field| field.choice(&choices, problems));
@@ -164,7 +165,7 @@ pub(super) fn read(
     })
 }
 
-fn check_keys(section: &Section<'_>, kind: Option<&Entry>, problems: &mut Problems<'_>) {
+fn check_keys(section: &Section<'_>, kind: Option<&Entry<Method>>, problems: &mut Problems<'_>) {
     let Some(kind) = kind else {
         return check_keys_of_all_methods(section, problems);
     };

@@ -82,3 +82,28 @@ fn nor_do_its_folders() {
         told(&circles)
     );
 }
+
+/// Which room takes nothing from which others.
+const FORBIDDEN: [(&str, &[&str]); 4] = [
+    ("policies", &["workers", "methods", "macro_step", "scene"]),
+    ("methods", &["workers", "policies", "macro_step", "scene"]),
+    ("results", &["workers"]),
+    ("workers", &["methods", "policies", "macro_step", "scene"]),
+];
+
+#[test]
+fn policies_methods_and_workers_know_nothing_of_each_other() {
+    let arrows = arrows();
+    let parts = |file: &str| -> Vec<String> { file.split(['/', '.']).map(str::to_owned).collect() };
+    let mut wrong = BTreeSet::new();
+    for arrow in &arrows {
+        let (from, to) = (parts(&arrow.from), parts(&arrow.to));
+        let forbidden = FORBIDDEN.iter().find(|(room, _)| *room == from[0]);
+        let is_forbidden = forbidden.is_some_and(|(_, others)| others.contains(&to[0].as_str()));
+        let is_other_policy = from[0] == "policies" && to[0] == "policies" && from[1] != to[1];
+        if is_forbidden || is_other_policy {
+            wrong.insert(format!("{} -> {}: {}", arrow.from, arrow.to, arrow.text));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
