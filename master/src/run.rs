@@ -1,8 +1,10 @@
 //! A co-simulation: the loop around the macro step, and what is read of it.
 //!
 //! * [`crate::macro_step`]: one macro step;
+//! * [`settings`]: the constants that decide about its steps;
 //! * [`state`]: what a run is at a macro point, as a value.
 
+pub mod settings;
 pub mod state;
 
 use std::time::Instant;

@@ -2,6 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
+/// How what is missed is foreseen. A scene does not change these numbers; run.json shows them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Settings {
+    /// Most macro steps that are looked back at. More follow a curve closer and carry noise further.
+    pub most_steps: usize,
+    /// Share of what is known of an order that stays with every step. At 1 an order that served once is never left, at 0 the last step alone
+    /// decides.
+    pub memory: f64,
+}
+
+/// Those of every run.
+pub(crate) const SETTINGS: Settings = Settings {
+    most_steps: MOST,
+    memory: 0.7,
+};
+
 /// Most macro steps that are looked back at.
 const MOST: usize = 3;
 
@@ -24,9 +40,6 @@ pub struct DeferredCorrection {
     /// `D` of the present step, as far as it is known.
     missed: Vec<f64>,
 }
-
-/// Share of what is known of an order that stays with every step.
-const MEMORY: f64 = 0.7;
 
 /// Weights of the last steps, newest first, in the extrapolation through 0 to 3 of them.
 const WEIGHTS: [[f64; MOST]; MOST + 1] = [
@@ -81,7 +94,7 @@ impl DeferredCorrection {
             let wrong = size(&self.foreseen);
             let before = &mut self.wrong[order];
             *before = match self.judged > order {
-                true => wrong + MEMORY * (*before - wrong),
+                true => wrong + SETTINGS.memory * (*before - wrong),
                 false => wrong,
             };
         }

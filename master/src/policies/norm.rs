@@ -6,6 +6,32 @@ use std::ops::Range;
 use crate::accuracy::{Change, MOST_LEFT};
 use crate::layout::Layout;
 
+/// How changes are compared. A scene does not change these numbers; run.json shows them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Settings {
+    /// Where new columns leave more than this share of a change, the change is noise. Smaller takes what columns miss for noise and stops
+    /// passes that would help; larger corrects noise.
+    pub noise: f64,
+    /// Noise may be so many times as much another time.
+    pub scatter: f64,
+    /// Share of its weight that a change keeps from one macro step to the next. At 1 the largest change of the whole run counts, at 0
+    /// only the last one, which may pass through zero.
+    pub memory: f64,
+    /// Share that noise keeps from step to step. At 1 one noisy step hides all later ones.
+    pub fading: f64,
+    /// Changes below this share of the variables themselves are rounding.
+    pub rounding: f64,
+}
+
+/// Those of every run.
+pub(crate) const SETTINGS: Settings = Settings {
+    noise: 0.03,
+    scatter: 3.0,
+    memory: 0.9,
+    fading: 0.99,
+    rounding: 1e-12,
+};
+
 /// Compares a change of the coupling variables with the changes that the last macro steps made.
 ///
 /// The variables are taken in groups of one unit: the forces of a joint, its moments, every exchanged output, every
@@ -27,21 +53,6 @@ struct Group {
     /// Share of a usual change that is the noise of the solvers, if that is most of it.
     noise: f64,
 }
-
-/// Where new columns leave more than this share of a change, the change is noise.
-const NOISE: f64 = 0.03;
-
-/// Noise may be so many times as much another time.
-const SCATTER: f64 = 3.0;
-
-/// Share of its weight that a change keeps from one macro step to the next.
-const MEMORY: f64 = 0.9;
-
-/// Share that noise keeps from step to step.
-const FADING: f64 = 0.99;
-
-/// Changes below this share of the variables themselves are rounding.
-const ROUNDING: f64 = 1e-12;
 
 impl Norm {
     /// For the coupling variables of `layout`.
@@ -73,7 +84,7 @@ impl Norm {
     pub fn note(&mut self, change: &[f64]) {
         for group in &mut self.groups {
             let size = norm(&change[group.variables.clone()]);
-            group.usual = size.max(MEMORY * group.past);
+            group.usual = size.max(SETTINGS.memory * group.past);
         }
     }
 
@@ -81,8 +92,8 @@ impl Norm {
     pub fn note_left(&mut self, left: &[f64]) {
         for group in &mut self.groups {
             let share = norm(&left[group.variables.clone()]) / group.usual;
-            if share > NOISE {
-                group.noise = SCATTER * share;
+            if share > SETTINGS.noise {
+                group.noise = SETTINGS.scatter * share;
             }
         }
     }
@@ -98,7 +109,7 @@ impl Norm {
     pub fn move_on(&mut self) {
         for group in &mut self.groups {
             group.past = group.usual;
-            group.noise *= FADING;
+            group.noise *= SETTINGS.fading;
         }
     }
 
@@ -107,11 +118,13 @@ impl Norm {
         let mut largest = Change::default();
         for group in &self.groups {
             let [size, value] = [change, values].map(|all| norm(&all[group.variables.clone()]));
-            if size <= ROUNDING * value {
+            if size <= SETTINGS.rounding * value {
                 continue;
             }
             let usual = group.usual * (group.noise / MOST_LEFT).max(1.0);
-            largest.of_usual = largest.of_usual.max(size / usual.max(ROUNDING * value));
+            largest.of_usual = largest
+                .of_usual
+                .max(size / usual.max(SETTINGS.rounding * value));
             let of_size = size / value.max(group.usual);
             if of_size > largest.of_size {
                 largest.of_size = of_size;

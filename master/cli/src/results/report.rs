@@ -6,6 +6,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use linchpin_master::results::{DegreeStatistics, Statistics, StepStatistics};
+use linchpin_master::run::settings::Settings;
 use linchpin_master::scene::{Degree, Method, Scene, StepControl};
 use serde::Serialize;
 
@@ -47,6 +48,8 @@ struct Json<'a> {
     degree: Degree,
     exchanged_degree: Degree,
     method: Method,
+    /// Absent for methods without a corrector, which leave nothing to decide.
+    settings: Option<Settings>,
     wall_time: f64,
     statistics: &'a Statistics,
     errors: Vec<ColumnErrorJson<'a>>,
@@ -58,6 +61,15 @@ struct ColumnErrorJson<'a> {
     /// Root mean square over that of the exact solution; absent if the exact solution is 0.
     normalised: Option<f64>,
     largest: f64,
+}
+
+/// The constants that decided about the macro steps.
+fn settings(scene: &Scene) -> Option<Settings> {
+    let coupling = &scene.coupling;
+    let varies = coupling.step_control.is_some();
+    let follow = coupling.has_automatic_degree();
+    let corrects = coupling.method.corrects();
+    corrects.then(|| Settings::new(varies, follow))
 }
 
 impl RunReport {
@@ -83,6 +95,7 @@ impl RunReport {
             degree: scene.coupling.degree,
             exchanged_degree: scene.coupling.exchanged_degree,
             method: scene.coupling.method,
+            settings: settings(scene),
             wall_time: self.wall_time,
             statistics: &self.statistics,
             errors: self

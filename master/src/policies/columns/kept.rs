@@ -5,8 +5,9 @@ use std::ops::Range;
 use nalgebra::UnitQuaternion;
 
 use super::axes::{attitude_of, turn};
-use super::lengths::{Between, MOST_SUPPORTS};
+use super::lengths::Between;
 use super::measured::{Kind, Measured};
+use super::settings::{MOST_SUPPORTS, SETTINGS};
 use crate::joint::Level;
 use crate::layout::Layout;
 use crate::signal::Nodes;
@@ -31,14 +32,11 @@ pub struct Kept {
     is_between: bool,
 }
 
-/// Most kinds whose responses stay: macro steps that vary come back to the same lengths.
-const MOST_KINDS: usize = 32;
-
 impl Kept {
     /// For the frames and outputs of `layout`, of which those on `levels` count; responses `stay` in use after their macro step, or not.
     pub fn new(layout: &Layout, levels: &'static [Level], stay: bool) -> Self {
         Self {
-            settled: Vec::with_capacity(if stay { MOST_KINDS } else { 0 }),
+            settled: Vec::with_capacity(if stay { SETTINGS.most_kinds } else { 0 }),
             stay,
             pending: Measured {
                 attitudes: vec![UnitQuaternion::identity(); layout.frames.len()],
@@ -117,7 +115,7 @@ impl Kept {
         let place = self.settled.iter().position(|one| one.kind == self.kind);
         if std::mem::take(&mut self.is_pending) {
             let place = place.unwrap_or_else(|| {
-                if self.settled.len() < MOST_KINDS {
+                if self.settled.len() < SETTINGS.most_kinds {
                     self.settled.push(self.pending.clone());
                 }
                 self.settled.len() - 1

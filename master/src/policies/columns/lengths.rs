@@ -15,17 +15,9 @@ use std::ops::Range;
 
 use super::axes::turn;
 use super::measured::Measured;
+use super::settings::{MOST_SUPPORTS, SETTINGS};
 use crate::joint::Level;
 use crate::layout::Layout;
-
-/// Most lengths that an interpolation goes through.
-pub const MOST_SUPPORTS: usize = 3;
-
-/// Share of a response that the farthest length may change.
-const MOST_CHANGED: f64 = 0.05;
-
-/// What the farthest length changes falls with the square of the distances, what is left then with the cube: power of the one in the other.
-const LEFT_OF_CHANGE: f64 = 1.5;
 
 /// Powers of the length in the responses to a load, by level.
 const POWERS: [i32; 3] = [2, 1, 0];
@@ -117,7 +109,7 @@ impl Between {
                 changed = counted.fold(changed, f64::max);
             }
         }
-        (changed <= MOST_CHANGED).then(|| changed.powf(LEFT_OF_CHANGE))
+        (changed <= SETTINGS.most_changed).then(|| changed.powf(SETTINGS.left_of_change))
     }
 }
 
@@ -338,7 +330,7 @@ mod tests {
     #[test]
     fn what_changes_its_sign_cannot_be_told() {
         let (_, changed) = found(|h| [h - 2.0, 0.0, 0.0], &[1.9, 2.2, 1.5], 2.1);
-        assert!(changed[0] > MOST_CHANGED, "{changed:?}");
+        assert!(changed[0] > SETTINGS.most_changed, "{changed:?}");
         assert_eq!(changed[1..], [0.0, 0.0]);
         let (_, changed) = found(
             |h| [if h > 1.0 { 1.0 } else { 0.0 }, 0.0, 0.0],

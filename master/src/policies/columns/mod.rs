@@ -4,6 +4,7 @@
 //! * `kept`: responses of earlier macro steps that stay in use;
 //! * `axes`: responses that turn with the bodies;
 //! * `lengths`: responses over one length, from those that were measured over others;
+//! * `settings`: its constants;
 //! * `resolution`: whether the macro step resolves the responses.
 
 mod axes;
@@ -11,6 +12,7 @@ mod kept;
 mod lengths;
 mod measured;
 mod resolution;
+mod settings;
 
 use std::ops::Range;
 
@@ -25,6 +27,8 @@ use serde::{Deserialize, Serialize};
 use kept::Kept;
 use measured::{Kind, Measured};
 pub use resolution::Resolution;
+pub(crate) use settings::SETTINGS;
+pub use settings::Settings;
 
 /// The columns of all driven inputs, one for each shape of an input.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,16 +1,10 @@
 //! Whether a macro step resolves how a subsystem responds to loads.
 
+use super::settings::SETTINGS;
 use crate::joint::Level;
 use crate::layout::Layout;
 use crate::signal::SharePolynomial;
 use serde::{Deserialize, Serialize};
-
-/// Responses that differ from those of inertia alone by this factor are not resolved: for an undamped spring under a load that grows with time
-/// where `omega H` is above 2.6, shortly before the acceleration at the end of the step passes through zero.
-const UNRESOLVED: f64 = 4.0;
-
-/// Shapes whose mean weighted by `1 - s` is smaller than this move a free body too little to tell.
-const LEAST_LEVER: f64 = 0.02;
 
 const NOTHING: [[f64; 2]; SharePolynomial::TERMS] = [[0.0; 2]; SharePolynomial::TERMS];
 
@@ -63,7 +57,7 @@ impl Resolution {
         response: &[f64],
     ) {
         let (lever, end) = (shape.lever(), shape.value(1.0));
-        if lever.abs() < LEAST_LEVER || end.abs() < LEAST_LEVER {
+        if lever.abs() < SETTINGS.least_lever || end.abs() < SETTINGS.least_lever {
             return;
         }
         let units = [length * length * lever.abs(), end.abs()];
@@ -93,6 +87,6 @@ impl Resolution {
 
     /// By what factor the responses of a subsystem differed most from those of inertia, if that is too much to be resolved.
     pub fn unresolved(&self, subsystem: usize) -> Option<f64> {
-        Some(self.worst[subsystem]).filter(|worst| *worst > UNRESOLVED)
+        Some(self.worst[subsystem]).filter(|worst| *worst > SETTINGS.unresolved)
     }
 }

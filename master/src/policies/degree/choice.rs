@@ -1,15 +1,24 @@
 //! Which degree the polynomials of a group of coupling variables have in the next macro step, where it follows the estimates.
 
-use crate::time::MOST_GROWTH;
-
 use serde::{Deserialize, Serialize};
 
-/// Another degree has to allow steps that are longer by this factor.
-const GAIN: f64 = 1.2;
+use crate::time::MOST_GROWTH;
 
-/// Degree that is left for a lower one only at a jump. Multipliers of constant polynomials are means over the steps; polynomials of higher degree through
-/// them look rough, so that the errors of degree 0 would never let it go.
-const LOWEST: usize = 1;
+/// When a degree changes. A scene does not change these numbers; run.json shows them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Settings {
+    /// A higher degree has to allow steps that are longer by this factor. Nearer to 1 degrees change to and fro, larger ones stay too long.
+    pub gain: f64,
+    /// Degree that is left for a lower one only at a jump. Multipliers of constant polynomials are means over the steps; polynomials of higher
+    /// degree through them look rough, so that the errors of degree 0 would never let it go.
+    pub lowest: usize,
+}
+
+/// Those of every run.
+pub(crate) const SETTINGS: Settings = Settings {
+    gain: 1.2,
+    lowest: 1,
+};
 
 /// What a degree is chosen for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -128,7 +137,7 @@ impl DegreeChoice {
         let is_better = |other: Option<Prospect>, gain| {
             other.is_some_and(|other| other.is_better(present, gain, purpose))
         };
-        let lower = prospects.lower.filter(|_| degree > LOWEST);
+        let lower = prospects.lower.filter(|_| degree > SETTINGS.lowest);
         let is_lower_better = is_better(lower, 1.0);
         if purpose == Purpose::Repetition {
             return degree - usize::from(is_lower_better);
@@ -137,7 +146,13 @@ impl DegreeChoice {
             return (degree + 1).min(prospects.smooth_points).min(highest);
         }
         let higher = prospects.higher.filter(|_| degree < highest);
-        let count = |steps: usize, other| if is_better(other, GAIN) { steps + 1 } else { 0 };
+        let count = |steps: usize, other| {
+            if is_better(other, SETTINGS.gain) {
+                steps + 1
+            } else {
+                0
+            }
+        };
         self.lower = count(self.lower, lower);
         self.higher = count(self.higher, higher);
         match (self.lower > degree, self.higher > degree) {
@@ -182,14 +197,14 @@ mod tests {
     fn the_longer_step_counts_where_it_is_within_reach() {
         let of = |scaled, order| Prospect { scaled, order };
         let longer = of(0.5f64.powi(4), 4);
-        assert!(longer.is_better(of(0.7f64.powi(3), 3), GAIN, Purpose::LongestStep));
-        assert!(!longer.is_better(of(0.58f64.powi(3), 3), GAIN, Purpose::LongestStep));
+        assert!(longer.is_better(of(0.7f64.powi(3), 3), SETTINGS.gain, Purpose::LongestStep));
+        assert!(!longer.is_better(of(0.58f64.powi(3), 3), SETTINGS.gain, Purpose::LongestStep));
         // Both may grow as much as a step does: 1e-6 allows 100 times the step and 1e-9 only 31 times, but with less error.
-        assert!(of(1e-9, 6).is_better(of(1e-6, 3), GAIN, Purpose::LongestStep));
-        assert!(!of(1e-6, 3).is_better(of(1e-9, 6), GAIN, Purpose::LongestStep));
+        assert!(of(1e-9, 6).is_better(of(1e-6, 3), SETTINGS.gain, Purpose::LongestStep));
+        assert!(!of(1e-6, 3).is_better(of(1e-9, 6), SETTINGS.gain, Purpose::LongestStep));
         // Of steps whose length is given only the error counts.
-        assert!(of(0.2, 5).is_better(of(0.6, 3), GAIN, Purpose::SmallestError));
-        assert!(!of(0.5, 5).is_better(of(0.6, 3), GAIN, Purpose::SmallestError));
+        assert!(of(0.2, 5).is_better(of(0.6, 3), SETTINGS.gain, Purpose::SmallestError));
+        assert!(!of(0.5, 5).is_better(of(0.6, 3), SETTINGS.gain, Purpose::SmallestError));
         assert!(!of(0.0, 5).is_better(of(0.0, 3), 1.0, Purpose::SmallestError));
     }
 

@@ -10,7 +10,8 @@ use crate::results::StepDegrees;
 use crate::time::MOST_GROWTH;
 
 use choice::DegreeChoice;
-pub use choice::{Prospect, Prospects, Purpose};
+pub(crate) use choice::SETTINGS;
+pub use choice::{Prospect, Prospects, Purpose, Settings};
 
 /// Variables whose polynomials have one degree.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -34,7 +34,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    fn new(varies: bool) -> Self {
+    pub(crate) fn new(varies: bool) -> Self {
         Self {
             most_left: if varies { 3e-3 } else { MOST_LEFT },
             slow: 0.3,

@@ -14,11 +14,11 @@ mod settings;
 use serde::{Deserialize, Serialize};
 
 use crate::accuracy::{Estimate, Tolerance};
-use crate::policies::step_size::settings::SETTINGS;
 use crate::results::StepStatistics;
 use crate::time::MacroStep;
 
 pub use control::StepControl;
+pub(crate) use settings::SETTINGS;
 pub use settings::Settings;
 
 /// Chooses the lengths of the macro steps.

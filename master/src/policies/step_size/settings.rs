@@ -42,7 +42,7 @@ pub struct Settings {
 }
 
 /// Those of every run.
-pub(super) const SETTINGS: Settings = Settings {
+pub(crate) const SETTINGS: Settings = Settings {
     safety: 0.9,
     integral: 0.7,
     proportional: 0.4,
