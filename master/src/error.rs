@@ -3,7 +3,7 @@
 use linchpin_proto::contract::CallError;
 use linchpin_proto::version::Incompatible;
 
-use crate::connection::{LastWords, StartError};
+use crate::connection::{ExitMessage, StartError};
 use crate::methods::Unreadable;
 use crate::reading::SceneErrors;
 
@@ -34,7 +34,7 @@ pub enum RunError {
     },
     /// A call to a worker failed.
     #[error(
-        "subsystem \"{subsystem}\" at t = {t} s (H = {step} s): {source}{last_words}{}",
+        "subsystem \"{subsystem}\" at t = {t} s (H = {step} s): {source}{exit_message}{}",
         advice(.source)
     )]
     Worker {
@@ -47,7 +47,7 @@ pub enum RunError {
         /// What the call said.
         source: Box<CallError>,
         /// What its process left behind, if known.
-        last_words: LastWords,
+        exit_message: ExitMessage,
     },
     /// A worker sent a number that is none.
     #[error(

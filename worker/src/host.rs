@@ -40,13 +40,13 @@ impl Default for Limits {
 /// A worker: its models and the instances that masters made of them.
 pub struct Host {
     models: BTreeMap<String, Box<dyn Model>>,
-    seats: RwLock<Seats>,
+    instances: RwLock<Instances>,
     limits: Limits,
 }
 
-type Seats = BTreeMap<u64, Arc<Seat>>;
+type Instances = BTreeMap<u64, Arc<Slot>>;
 
-struct Seat {
+struct Slot {
     request: v1::InitializeRequest,
     occupant: Mutex<Occupant>,
 }
@@ -70,23 +70,27 @@ impl Host {
             .collect();
         Self {
             models,
-            seats: RwLock::default(),
+            instances: RwLock::default(),
             limits,
         }
     }
 
     /// Number of instances at present.
     pub fn instances(&self) -> usize {
-        self.seats().len()
+        self.table().len()
     }
 
     // A call that panics under one of these locks leaves the table of instances whole.
-    fn seats(&self) -> RwLockReadGuard<'_, Seats> {
-        self.seats.read().unwrap_or_else(PoisonError::into_inner)
+    fn table(&self) -> RwLockReadGuard<'_, Instances> {
+        self.instances
+            .read()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn change_seats(&self) -> RwLockWriteGuard<'_, Seats> {
-        self.seats.write().unwrap_or_else(PoisonError::into_inner)
+    fn change_table(&self) -> RwLockWriteGuard<'_, Instances> {
+        self.instances
+            .write()
+            .unwrap_or_else(PoisonError::into_inner)
     }
 
     fn with_instance<T>(
@@ -94,15 +98,15 @@ impl Host {
         number: u64,
         call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
     ) -> Result<T, CallError> {
-        let seat = self.seats().get(&number).cloned();
-        let Some(seat) = seat else {
+        let slot = self.table().get(&number).cloned();
+        let Some(slot) = slot else {
             return Err(Failure::misuse(
                 "instance",
                 format!("there is no instance {number:#x} here; Initialize makes one"),
             )
             .into());
         };
-        Ok(survive(|| seat.call(call))?)
+        Ok(without_panic(|| slot.call(call))?)
     }
 
     fn build(&self, request: &v1::InitializeRequest) -> Result<Instance, Failure> {
@@ -148,19 +152,19 @@ impl Host {
         request: &v1::InitializeRequest,
         instance: Instance,
     ) -> Result<v1::InitializeReply, Failure> {
-        let mut seats = self.change_seats();
-        if let Some(seat) = seats.get(&request.instance).cloned() {
+        let mut instances = self.change_table();
+        if let Some(slot) = instances.get(&request.instance).cloned() {
             // The same request was repeated while the first one was still being answered.
-            drop(seats);
-            return seat.initialize_again(request);
+            drop(instances);
+            return slot.initialize_again(request);
         }
-        if seats.len() >= self.limits.instances {
-            seats.retain(|_, seat| !seat.is_idle(self.limits.idle));
+        if instances.len() >= self.limits.instances {
+            instances.retain(|_, slot| !slot.is_idle(self.limits.idle));
         }
-        if seats.len() >= self.limits.instances {
+        if instances.len() >= self.limits.instances {
             return Err(Failure::fatal(format!(
                 "this worker is full: {} instances are in use; end some with Terminate or start another worker",
-                seats.len()
+                instances.len()
             )));
         }
         let reply = instance.initialized();
@@ -168,16 +172,16 @@ impl Host {
             instance,
             used: Instant::now(),
         };
-        let seat = Seat {
+        let slot = Slot {
             request: request.clone(),
             occupant: Mutex::new(occupant),
         };
-        seats.insert(request.instance, Arc::new(seat));
+        instances.insert(request.instance, Arc::new(slot));
         Ok(reply)
     }
 }
 
-impl Seat {
+impl Slot {
     fn call<T>(
         &self,
         call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
@@ -223,7 +227,7 @@ impl Seat {
 
 impl Contract for Host {
     fn describe(&self, request: &v1::DescribeRequest) -> Result<v1::DescribeReply, CallError> {
-        let models = survive(|| self.describe_models(request))?;
+        let models = without_panic(|| self.describe_models(request))?;
         Ok(v1::DescribeReply {
             protocol: Some(PROTOCOL),
             worker: "linchpin".into(),
@@ -236,11 +240,11 @@ impl Contract for Host {
         &self,
         request: &v1::InitializeRequest,
     ) -> Result<v1::InitializeReply, CallError> {
-        let existing = self.seats().get(&request.instance).cloned();
-        if let Some(seat) = existing {
-            return Ok(seat.initialize_again(request)?);
+        let existing = self.table().get(&request.instance).cloned();
+        if let Some(slot) = existing {
+            return Ok(slot.initialize_again(request)?);
         }
-        let instance = survive(|| self.build(request))?;
+        let instance = without_panic(|| self.build(request))?;
         Ok(self.place(request, instance)?)
     }
 
@@ -270,7 +274,7 @@ impl Contract for Host {
     }
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
-        self.change_seats().remove(&request.instance);
+        self.change_table().remove(&request.instance);
         Ok(v1::TerminateReply {})
     }
 
@@ -303,7 +307,7 @@ fn refuse(error: SetupError) -> Failure {
 }
 
 /// A solver that panics fails its own call only.
-fn survive<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
+fn without_panic<T>(call: impl FnOnce() -> Result<T, Failure>) -> Result<T, Failure> {
     catch_unwind(AssertUnwindSafe(call)).unwrap_or_else(|panic| {
         Err(Failure::fatal(format!(
             "the solver panicked: {}",

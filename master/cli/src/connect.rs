@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
-    Connection, Direct, Launcher, StartError, Threaded, TimeLimits, UnaryTurns, Way, connect,
-    new_runtime, start,
+    ConnectOptions, Connection, Direct, Launcher, StartError, Threaded, TimeLimits, UnaryTurns,
+    connect, new_runtime, start,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::models;
@@ -97,8 +97,8 @@ impl Connector {
         }
     }
 
-    fn way(&self, scene: &Scene, subsystem: &Subsystem) -> Result<Way, StartError> {
-        Ok(Way {
+    fn way(&self, scene: &Scene, subsystem: &Subsystem) -> Result<ConnectOptions, StartError> {
+        Ok(ConnectOptions {
             model: subsystem.model.clone(),
             unary_only: subsystem.calls == Calls::Unary,
             limits: TimeLimits {

@@ -23,7 +23,7 @@ const FIRST_PAUSE: Duration = Duration::from_millis(2);
 const LONGEST_PAUSE: Duration = Duration::from_millis(100);
 
 /// Longest time for the end of an instance: a worker that hangs must not hold up the end of a run.
-const FAREWELL: Duration = Duration::from_secs(1);
+const TERMINATE_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// A worker behind gRPC.
 pub struct Grpc {
@@ -185,7 +185,7 @@ impl Contract for Grpc {
 
     fn terminate(&self, request: &TerminateRequest) -> Result<TerminateReply, CallError> {
         let mut client = self.client.clone();
-        let limit = FAREWELL.min(self.limits.answer);
+        let limit = TERMINATE_TIMEOUT.min(self.limits.answer);
         self.runtime
             .block_on(async { within(limit, client.terminate(*request)).await })?
             .map(Response::into_inner)

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use rustix::process::{Pid, Signal, kill_process_group};
 use tempfile::TempDir;
 
-use super::LastWords;
+use super::ExitMessage;
 
 /// Placeholder for the address in a worker's command.
 const ADDRESS: &str = "{address}";
@@ -19,7 +19,7 @@ const ADDRESS: &str = "{address}";
 const GRACE: Duration = Duration::from_millis(500);
 
 /// How long a process whose connection was lost may take until the system says how it ended.
-const OBITUARY: Duration = Duration::from_millis(100);
+const EXIT_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// Longest path of a Unix socket in bytes.
 const LONGEST_PATH: usize = 107;
@@ -168,12 +168,12 @@ impl WorkerProcess {
     }
 
     /// How it ended and what it said last; for a process whose connection was lost, which is about to end.
-    pub fn last_words(&self) -> LastWords {
-        let give_up = Instant::now() + OBITUARY;
+    pub fn exit_message(&self) -> ExitMessage {
+        let give_up = Instant::now() + EXIT_TIMEOUT;
         while self.ended().is_none() && Instant::now() < give_up {
             std::thread::sleep(Duration::from_millis(1));
         }
-        LastWords {
+        ExitMessage {
             status: self.ended(),
             error_output: self.error_output(),
         }

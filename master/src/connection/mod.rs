@@ -4,8 +4,8 @@
 //! every worker, then collects from every worker.
 
 mod direct;
+mod exit_message;
 mod grpc;
-mod last_words;
 mod launch;
 mod stream;
 mod threaded;
@@ -24,8 +24,8 @@ use tokio::runtime::Runtime;
 use crate::interrupt::Interrupt;
 
 pub use direct::Direct;
+pub use exit_message::ExitMessage;
 pub use grpc::{Grpc, new_runtime};
-pub use last_words::LastWords;
 pub use launch::{LaunchError, Launcher, WorkerProcess};
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
@@ -35,7 +35,7 @@ pub use worker::Connection;
 
 /// How a worker is reached.
 #[derive(Clone)]
-pub struct Way {
+pub struct ConnectOptions {
     /// Model that will be used; `None`: the worker's first.
     pub model: Option<String>,
     /// Never use the exchange stream.
@@ -52,29 +52,33 @@ pub struct Way {
 
 /// Connects to the worker at `address` (`http://HOST:PORT` or `unix:/PATH`) and chooses its route: the exchange stream
 /// where the worker serves one that knows every part of a request, otherwise the unary calls on a thread of its own.
-pub fn connect(address: &str, way: &Way) -> Result<Box<dyn Connection>, CallError> {
-    let grpc = connect_on(Arc::clone(&way.runtime), address, way)?;
+pub fn connect(address: &str, options: &ConnectOptions) -> Result<Box<dyn Connection>, CallError> {
+    let grpc = connect_on(Arc::clone(&options.runtime), address, options)?;
     let description = grpc.describe(&v1::DescribeRequest {
         protocol: Some(PROTOCOL),
         ..Default::default()
     })?;
-    if !way.unary_only && serves_exchange(&description, way.model.as_deref()) {
-        return Ok(Box::new(ExchangeStream::new(grpc).polling(way.polling)));
+    if !options.unary_only && serves_exchange(&description, options.model.as_deref()) {
+        return Ok(Box::new(ExchangeStream::new(grpc).polling(options.polling)));
     }
     // Its own runtime: the unary calls of several workers run at the same time on several threads.
     let runtime = new_runtime().map_err(|error| CallError::Unreachable {
         address: address.to_owned(),
         reason: error.to_string(),
     })?;
-    let grpc = connect_on(runtime, address, way)?;
+    let grpc = connect_on(runtime, address, options)?;
     Ok(Box::new(Threaded::new(
         Arc::new(UnaryTurns::new(grpc)),
         "unary calls",
     )))
 }
 
-fn connect_on(runtime: Arc<Runtime>, address: &str, way: &Way) -> Result<Grpc, CallError> {
-    Grpc::connect(address, way.limits, runtime, way.interrupt.clone())
+fn connect_on(
+    runtime: Arc<Runtime>,
+    address: &str,
+    options: &ConnectOptions,
+) -> Result<Grpc, CallError> {
+    Grpc::connect(address, options.limits, runtime, options.interrupt.clone())
 }
 
 fn serves_exchange(description: &v1::DescribeReply, model: Option<&str>) -> bool {
@@ -99,12 +103,12 @@ pub enum StartError {
     Launch(#[from] LaunchError),
     /// Its process ended before it answered.
     #[error("the worker did not answer{0}")]
-    Ended(LastWords),
+    Ended(ExitMessage),
     /// Its process runs, but does not listen.
     #[error(
         "the worker was started, but nothing listens at {address} after {seconds} s; its program must listen at the \
          address that stands in place of {{address}} in the command, or behind --listen at its end; \
-         run.start_timeout gives it more time{last_words}"
+         run.start_timeout gives it more time{exit_message}"
     )]
     Silent {
         /// Where it should listen.
@@ -112,7 +116,7 @@ pub enum StartError {
         /// The time limit.
         seconds: f64,
         /// Last lines of its error output.
-        last_words: LastWords,
+        exit_message: ExitMessage,
     },
     /// It does not answer.
     #[error("{0}{advice}", advice = advice(.0))]
@@ -143,25 +147,25 @@ pub fn start(
     launcher: &Launcher,
     name: &str,
     command: &[String],
-    way: &Way,
+    options: &ConnectOptions,
 ) -> Result<Box<dyn Connection>, StartError> {
     let process = launcher.start(name, command)?;
-    let give_up = Instant::now() + way.limits.start;
+    let give_up = Instant::now() + options.limits.start;
     loop {
-        let attempt = Way {
+        let attempt = ConnectOptions {
             limits: TimeLimits {
                 start: ATTEMPT,
-                ..way.limits
+                ..options.limits
             },
-            ..way.clone()
+            ..options.clone()
         };
         let reached = connect(process.address(), &attempt);
         if process.ended().is_some() {
-            return Err(StartError::Ended(process.last_words()));
+            return Err(StartError::Ended(process.exit_message()));
         }
         match reached {
             Ok(connection) => {
-                let runtime = Arc::clone(&way.runtime);
+                let runtime = Arc::clone(&options.runtime);
                 let ending = Ending { process, runtime };
                 return Ok(Box::new(Owned { connection, ending }));
             }
@@ -169,8 +173,8 @@ pub fn start(
             Err(CallError::Unreachable { address, .. }) => {
                 return Err(StartError::Silent {
                     address,
-                    seconds: way.limits.start.as_secs_f64(),
-                    last_words: process.last_words(),
+                    seconds: options.limits.start.as_secs_f64(),
+                    exit_message: process.exit_message(),
                 });
             }
             Err(error) => return Err(error.into()),
@@ -211,8 +215,8 @@ impl Connection for Owned {
         self.connection.collect(reply)
     }
 
-    fn last_words(&self) -> LastWords {
-        self.ending.process.last_words()
+    fn exit_message(&self) -> ExitMessage {
+        self.ending.process.exit_message()
     }
 
     fn route(&self) -> &'static str {

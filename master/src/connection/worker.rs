@@ -3,7 +3,7 @@
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
-use super::last_words::LastWords;
+use super::exit_message::ExitMessage;
 
 /// A worker that one subsystem of a scene lives in.
 pub trait Connection: Send {
@@ -17,8 +17,8 @@ pub trait Connection: Send {
     fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError>;
 
     /// What a worker that this master started left behind when its connection was lost; empty if unknown.
-    fn last_words(&self) -> LastWords {
-        LastWords::default()
+    fn exit_message(&self) -> ExitMessage {
+        ExitMessage::default()
     }
 
     /// Which way the exchange takes, for the summary.

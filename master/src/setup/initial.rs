@@ -2,7 +2,7 @@
 
 use nalgebra::UnitQuaternion;
 
-use super::closed;
+use super::consistency;
 use super::signal_loop::SignalBlock;
 use crate::error::RunError;
 use crate::joint::Level;
@@ -91,7 +91,7 @@ impl InitialState {
             return Ok(());
         }
         let outputs = evaluate_all(layout, workers, scene.t_start, self)?;
-        closed::check(scene, layout, &outputs)
+        consistency::check(scene, layout, &outputs)
     }
 
     /// Exchanged variables as the subsystems show them under these multipliers, 0 if none are given. Positions do not

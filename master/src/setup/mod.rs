@@ -1,7 +1,8 @@
 //! From a scene and the descriptions of its workers to a run at its first macro point.
 
-mod closed;
+mod consistency;
 mod degrees;
+mod discover;
 mod geometry;
 mod initial;
 mod options;
@@ -10,9 +11,8 @@ mod refusal;
 mod signal_loop;
 mod start;
 mod steps;
-mod tie;
 mod velocities;
 
+pub use discover::multiplier_columns;
 pub use options::{Connect, Options};
 pub use start::describe;
-pub use tie::multiplier_columns;

@@ -1,6 +1,6 @@
 //! Checks that the columns of the picture's panels are recorded.
 
-use super::tie::did_you_mean;
+use super::discover::did_you_mean;
 use crate::error::RunError;
 use crate::results::Row;
 use crate::scene::Scene;

@@ -3,13 +3,13 @@
 use linchpin_proto::v1;
 
 use super::degrees::{check_degrees, load_forms};
+use super::discover::{
+    connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
+};
 use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, step_size_of};
-use super::tie::{
-    connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
-};
 use super::{panels, velocities};
 use crate::error::RunError;
 use crate::joint::Level;

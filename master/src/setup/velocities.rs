@@ -36,7 +36,7 @@ pub(super) fn choose(
         return Ok(Vec::new());
     }
     let layout = Layout::new(coupled, Level::Velocity)
-        .map_err(|lacks| super::tie::refuse_marker(scene, lacks))?;
+        .map_err(|lacks| super::discover::refuse_marker(scene, lacks))?;
     let start = conditions(scene, &layout, workers)?;
     let mut influence = DMatrix::zeros(layout.rows.len(), free.len());
     for (column, (number, velocity)) in free.iter().enumerate() {
@@ -93,7 +93,11 @@ fn free_velocities(
                     models[number].name,
                     known.join(", ")
                 );
-                scene.error(&key, message, super::tie::did_you_mean(parameter, &known))
+                scene.error(
+                    &key,
+                    message,
+                    super::discover::did_you_mean(parameter, &known),
+                )
             })?;
             let velocity = FreeVelocity {
                 subsystem: subsystem.name.clone(),

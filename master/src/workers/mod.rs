@@ -8,15 +8,15 @@
 //! * `exchange`: all requests out, all answers in;
 //! * `samples`: results at fixed times inside a macro step;
 //! * `recovery`: exchanges after which a shorter macro step may follow;
-//! * `pieces`: an advance that a worker cannot take at once.
+//! * `substeps`: an advance that a worker cannot take at once.
 
 mod all;
 mod exchange;
 mod look;
-mod pieces;
 mod recovery;
 mod requests;
 mod samples;
+mod substeps;
 mod subsystem;
 mod views;
 

@@ -5,7 +5,7 @@
 //! at the same macro point again.
 
 use super::all::Workers;
-use super::pieces::{advance_in_pieces, is_refusal};
+use super::substeps::{advance_in_substeps, is_refusal};
 use super::subsystem::Subsystem;
 use super::subsystem::answer::Answered;
 use crate::error::RunError;
@@ -75,7 +75,7 @@ fn advance(subsystems: &mut [Subsystem], step: MacroStep) -> Result<Option<RunEr
         }
     }
     for number in refused_again {
-        advance_in_pieces(&mut subsystems[number], step)?;
+        advance_in_substeps(&mut subsystems[number], step)?;
     }
     Ok(refusal)
 }

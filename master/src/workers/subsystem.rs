@@ -12,7 +12,7 @@ use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;
 
-use crate::connection::{Connection, LastWords};
+use crate::connection::{Connection, ExitMessage};
 use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
 use crate::system::Differentiation;
@@ -220,16 +220,16 @@ impl Subsystem {
     }
 
     pub(crate) fn failed(&self, source: CallError, step: MacroStep) -> RunError {
-        let last_words = match source {
-            CallError::Lost { .. } | CallError::Deadline { .. } => self.connection.last_words(),
-            _ => LastWords::default(),
+        let exit_message = match source {
+            CallError::Lost { .. } | CallError::Deadline { .. } => self.connection.exit_message(),
+            _ => ExitMessage::default(),
         };
         RunError::Worker {
             subsystem: self.name.clone(),
             t: step.start,
             step: step.length,
             source: Box::new(source),
-            last_words,
+            exit_message,
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::system::solve::{LinearSolver, SingularColumn};
 use crate::system::unknowns::Unknowns;
 use crate::system::{Outputs, Point, System};
 
-use super::arcs::{Arcs, Past, unknowns_of};
+use super::curves::{HermiteCurves, Past, unknowns_of};
 use super::sample::Sample;
 use super::stack::Stack;
 use super::variant::Variant;
@@ -28,9 +28,9 @@ const MOTION_ORDER: usize = 4;
 /// State of Hermite coupling between two macro steps.
 pub struct HermiteCoupling {
     variant: Variant,
-    arcs: Arcs,
+    curves: HermiteCurves,
     /// The corrected curves of the last step.
-    before: Arcs,
+    before: HermiteCurves,
     multipliers: Vec<f64>,
     /// All variables at the start of the step.
     held: Vec<f64>,
@@ -61,8 +61,8 @@ impl HermiteCoupling {
     ) -> Built {
         let size = layout.variables();
         let unknowns = unknowns_of(layout, variant);
-        let mut arcs = Arcs::new(layout, variant, unknowns.clone(), history);
-        start_motion(&mut arcs, layout, outputs);
+        let mut curves = HermiteCurves::new(layout, variant, unknowns.clone(), history);
+        start_motion(&mut curves, layout, outputs);
         let point = variant
             .starts_anew()
             .then(|| System::new(layout, Unknowns::ends(layout)));
@@ -73,9 +73,9 @@ impl HermiteCoupling {
         let mut method = Self {
             variant,
             multipliers: vec![0.0; layout.rows.len()],
-            before: arcs.clone(),
+            before: curves.clone(),
             held: vec![0.0; size],
-            arcs,
+            curves,
             solver: LinearSolver::new(stack.pattern()),
             point_solver: point
                 .as_ref()
@@ -94,10 +94,10 @@ impl HermiteCoupling {
     }
 
     fn read_starts(&mut self) {
-        for (held, start) in self.held.iter_mut().zip(self.arcs.starts()) {
+        for (held, start) in self.held.iter_mut().zip(self.curves.starts()) {
             *held = start;
         }
-        for (multiplier, start) in self.multipliers.iter_mut().zip(self.arcs.starts()) {
+        for (multiplier, start) in self.multipliers.iter_mut().zip(self.curves.starts()) {
             *multiplier = start;
         }
     }
@@ -107,7 +107,7 @@ impl HermiteCoupling {
         if self.variant.level() < Level::Acceleration {
             return;
         }
-        let step = self.arcs.length();
+        let step = self.curves.length();
         let accelerations = &mut self.accelerations;
         end.shift(Level::Acceleration, solution, accelerations);
         let residual = end.residual(Level::Acceleration);
@@ -119,12 +119,12 @@ impl HermiteCoupling {
 
 impl CouplingMethod for HermiteCoupling {
     fn predict(&mut self, length: f64) {
-        self.arcs.predict(length);
-        self.sample.take(&self.arcs);
+        self.curves.predict(length);
+        self.sample.take(&self.curves);
     }
 
     fn lend(&self, to: &mut dyn FnMut(&dyn Curves, &dyn Curves)) {
-        to(&self.arcs, &self.arcs);
+        to(&self.curves, &self.curves);
     }
 
     fn ends(&self) -> &[f64] {
@@ -132,9 +132,9 @@ impl CouplingMethod for HermiteCoupling {
     }
 
     fn accept(&mut self) {
-        self.before.copy_from(&self.arcs);
+        self.before.copy_from(&self.curves);
         self.settled.take(&self.before);
-        self.arcs.move_on(self.sample.ends(), &self.accelerations);
+        self.curves.move_on(self.sample.ends(), &self.accelerations);
         self.read_starts();
     }
 
@@ -171,7 +171,7 @@ impl CouplingMethod for HermiteCoupling {
 
     fn state(&self) -> Saved {
         Saved::of(&State {
-            past: self.arcs.past(),
+            past: self.curves.past(),
             before: self.before.past(),
             multipliers: self.multipliers.clone(),
         })
@@ -179,7 +179,7 @@ impl CouplingMethod for HermiteCoupling {
 
     fn resume(&mut self, state: &Saved) -> Result<(), Unreadable> {
         let state: State = state.read()?;
-        self.arcs.resume(state.past);
+        self.curves.resume(state.past);
         self.before.resume(state.before);
         self.settled.take(&self.before);
         self.read_starts();
@@ -190,7 +190,7 @@ impl CouplingMethod for HermiteCoupling {
     fn held(&self) -> Option<Held<'_>> {
         self.variant.starts_anew().then(|| Held {
             values: &self.held,
-            attitudes: self.arcs.attitudes(),
+            attitudes: self.curves.attitudes(),
         })
     }
 
@@ -201,11 +201,11 @@ impl CouplingMethod for HermiteCoupling {
 
 impl Corrected for HermiteCoupling {
     fn point(&self) -> Point<'_> {
-        self.sample.point(self.arcs.length(), self.arcs.attitudes())
+        self.sample.point(self.curves.length(), self.curves.attitudes())
     }
 
     fn has_past(&self) -> bool {
-        self.arcs.has_past()
+        self.curves.has_past()
     }
 
     fn solve(
@@ -215,7 +215,7 @@ impl Corrected for HermiteCoupling {
         is_first: bool,
         solution: &mut [f64],
     ) -> Result<(), SingularRow> {
-        let step = self.arcs.length();
+        let step = self.curves.length();
         self.stack.assemble_jacobian(end, start, step);
         self.stack.assemble_end(end, step);
         if let Some(start) = start.filter(|_| is_first) {
@@ -233,8 +233,8 @@ impl Corrected for HermiteCoupling {
     }
 
     fn correct(&mut self, change: &[f64], solution: &[f64], end: &System) {
-        self.arcs.change(change);
-        self.sample.take(&self.arcs);
+        self.curves.change(change);
+        self.sample.take(&self.curves);
         self.foresee_accelerations(solution, end);
     }
 
@@ -247,7 +247,7 @@ impl Corrected for HermiteCoupling {
         errors: &mut [f64],
     ) -> LoadErrors {
         let mut found = LoadErrors {
-            shares: self.arcs.load_error(),
+            shares: self.curves.load_error(),
             change: 0.0,
         };
         let loads = (0..rows).map(|row| unknowns.of(row).end).max().unwrap_or(0);
@@ -270,11 +270,11 @@ impl Corrected for HermiteCoupling {
         if exchanged.rates.is_some() {
             return (MOTION_SHARE * change, MOTION_ORDER);
         }
-        let start = self.arcs.chord_start(variable);
+        let start = self.curves.chord_start(variable);
         match start.and_then(|start| attempts.chord_error(variable, start)) {
             Some(error) => (error, CHORD_ORDER),
             None => {
-                let shares = self.arcs.signal_error(variable, self.arcs.length());
+                let shares = self.curves.signal_error(variable, self.curves.length());
                 (shares.mean * change, shares.order)
             }
         }
@@ -302,7 +302,7 @@ fn levels_of(variant: Variant, layout: &Layout) -> &'static [Level] {
 }
 
 /// Gives exchanged motion the rates that the outputs at the first macro point tell.
-fn start_motion(arcs: &mut Arcs, layout: &Layout, outputs: &dyn Outputs) {
+fn start_motion(curves: &mut HermiteCurves, layout: &Layout, outputs: &dyn Outputs) {
     for exchanged in &layout.exchanged {
         let Some(rates) = &exchanged.rates else {
             continue;
@@ -312,7 +312,7 @@ fn start_motion(arcs: &mut Arcs, layout: &Layout, outputs: &dyn Outputs) {
         let acceleration = rates.acceleration(outputs);
         for component in 0..exchanged.size() {
             let variable = exchanged.first + component;
-            arcs.set_rates(variable, speed[component], acceleration[component]);
+            curves.set_rates(variable, speed[component], acceleration[component]);
         }
     }
 }

@@ -16,15 +16,15 @@
 //! which miss `c H^3/10` at the end, have order 3.
 //!
 //! Motion that is exchanged is a polynomial through position and velocity at both ends and the acceleration at the start: the
-//! end values are unknowns, with the conditions that they are what the partner's outputs say (`arcs`). All conditions are
+//! end values are unknowns, with the conditions that they are what the partner's outputs say (`curves`). All conditions are
 //! linearised about the prediction with columns of the workers for each shape, and solved together (`stack`).
 //!
 //! * `scene`, `variant`: parameters: which conditions;
 //! * `coupling`: the method in a macro step;
-//! * `arcs`: the curves of all variables;
+//! * `curves`: the curves of all variables;
 //! * `stack`: the equations of all unknowns.
 
-mod arcs;
+mod curves;
 mod coupling;
 mod sample;
 mod scene;

@@ -2,7 +2,7 @@
 
 use nalgebra::UnitQuaternion;
 
-use super::arcs::Arcs;
+use super::curves::HermiteCurves;
 use crate::system::Point;
 use crate::system::unknowns::Unknowns;
 
@@ -26,13 +26,13 @@ impl Sample {
         }
     }
 
-    /// Takes the values of `arcs`.
-    pub fn take(&mut self, arcs: &Arcs) {
+    /// Takes the values of `curves`.
+    pub fn take(&mut self, curves: &HermiteCurves) {
         for (values, &share) in self.inner.iter_mut().zip(&self.shares) {
-            arcs.sample(share, values);
+            curves.sample(share, values);
         }
-        arcs.sample(1.0, &mut self.ends);
-        arcs.sample_rates(&mut self.rates);
+        curves.sample(1.0, &mut self.ends);
+        curves.sample_rates(&mut self.rates);
     }
 
     /// Values at the end of the step.

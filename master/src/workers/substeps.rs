@@ -6,31 +6,31 @@ use super::subsystem::Subsystem;
 use crate::error::RunError;
 use crate::time::MacroStep;
 
-/// The shortest piece is this part of the step.
-const MOST_PIECES: u32 = 64;
+/// The shortest substep is this part of the step.
+const MOST_SUBSTEPS: u32 = 64;
 
 /// Advances a subsystem in halves of the step, in quarters where it cannot take these, and so on, under the inputs of the whole step: other
 /// workers have taken it already, so it cannot be shorter for this one. The request was refused before, so the worker stands where it stood.
-pub(super) fn advance_in_pieces(
+pub(super) fn advance_in_substeps(
     subsystem: &mut Subsystem,
     step: MacroStep,
 ) -> Result<(), RunError> {
     let whole = subsystem.request.advance.take().unwrap_or_default();
     let evaluate = subsystem.request.evaluate.take();
-    let at = |piece: u32| step.length * f64::from(piece) / f64::from(MOST_PIECES);
-    let (mut done, mut size) = (0, MOST_PIECES / 2);
+    let at = |substep: u32| step.length * f64::from(substep) / f64::from(MOST_SUBSTEPS);
+    let (mut done, mut size) = (0, MOST_SUBSTEPS / 2);
     let mut samples = Vec::new();
-    while done < MOST_PIECES {
+    while done < MOST_SUBSTEPS {
         let end = done + size;
-        subsystem.request.advance = Some(piece_of(&whole, at(done), at(end)));
-        subsystem.request.evaluate = evaluate.clone().filter(|_| end == MOST_PIECES);
+        subsystem.request.advance = Some(substep_of(&whole, at(done), at(end)));
+        subsystem.request.evaluate = evaluate.clone().filter(|_| end == MOST_SUBSTEPS);
         subsystem.post(step)?;
         match subsystem.collect(step) {
             Ok(()) => {
                 samples.append(&mut subsystem.reply.samples);
                 done = end;
-                // Pieces end where those of their size do.
-                while done.is_multiple_of(2 * size) && 2 * size < MOST_PIECES {
+                // Substeps end where those of their size do.
+                while done.is_multiple_of(2 * size) && 2 * size < MOST_SUBSTEPS {
                     size *= 2;
                 }
             }
@@ -50,7 +50,7 @@ pub(super) fn is_refusal(error: &RunError) -> bool {
 }
 
 /// The part of an advance from `start` to `end`, in s after its beginning.
-fn piece_of(whole: &v1::Advance, start: f64, end: f64) -> v1::Advance {
+fn substep_of(whole: &v1::Advance, start: f64, end: f64) -> v1::Advance {
     let signals = whole.signals.iter().map(|signal| v1::Signal {
         nodes: signal.nodes.iter().map(|node| node - start).collect(),
         ..signal.clone()
@@ -71,7 +71,7 @@ mod tests {
     use linchpin_proto::polynomial::Polynomial;
 
     #[test]
-    fn a_piece_has_the_inputs_and_the_samples_of_its_part() {
+    fn a_substep_has_the_inputs_and_the_samples_of_its_part() {
         let whole = v1::Advance {
             t: 3.0,
             step: 0.8,
@@ -82,11 +82,14 @@ mod tests {
             }],
             samples: vec![0.1, 0.2, 0.35, 0.7],
         };
-        let piece = piece_of(&whole, 0.2, 0.4);
-        assert_eq!((piece.t, piece.step, piece.signals[0].input), (3.2, 0.2, 7));
-        assert!(piece.samples.len() == 1 && (piece.samples[0] - 0.15).abs() < 1e-15);
+        let substep = substep_of(&whole, 0.2, 0.4);
+        assert_eq!(
+            (substep.t, substep.step, substep.signals[0].input),
+            (3.2, 0.2, 7)
+        );
+        assert!(substep.samples.len() == 1 && (substep.samples[0] - 0.15).abs() < 1e-15);
         let [own, all] =
-            [&piece, &whole].map(|one| Polynomial::from_signal(&one.signals[0]).unwrap());
+            [&substep, &whole].map(|one| Polynomial::from_signal(&one.signals[0]).unwrap());
         for tau in [0.0, 0.07, 0.2] {
             assert!((own.value(tau) - all.value(0.2 + tau)).abs() < 1e-13);
         }

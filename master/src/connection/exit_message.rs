@@ -4,7 +4,7 @@ use std::fmt;
 
 /// How a worker process ended and what it said before.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct LastWords {
+pub struct ExitMessage {
     /// How it ended; absent if it runs, or if the master did not start it.
     pub status: Option<String>,
     /// Last lines of its error output; empty if there are none.
@@ -12,7 +12,7 @@ pub struct LastWords {
 }
 
 /// To be put behind an error message.
-impl fmt::Display for LastWords {
+impl fmt::Display for ExitMessage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if let Some(status) = &self.status {
             write!(f, "; its process has ended ({status})")?;

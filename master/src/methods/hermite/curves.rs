@@ -31,7 +31,7 @@ type Start = [f64; 3];
 ///   are, while they leave `p`, `v` and, of degree 4, `a` as they are;
 /// * connected signal: the Lagrange polynomial through its end value and past values.
 #[derive(Debug, Clone)]
-pub struct Arcs {
+pub struct HermiteCurves {
     length: f64,
     unknowns: Unknowns,
     kinds: Vec<Kind>,
@@ -141,8 +141,8 @@ fn kinds_of(layout: &Layout) -> Vec<Kind> {
     kinds
 }
 
-impl Arcs {
-    /// Curves that start from the values of `history`; motion gets its rates by [`Arcs::set_rates`].
+impl HermiteCurves {
+    /// Curves that start from the values of `history`; motion gets its rates by [`HermiteCurves::set_rates`].
     pub fn new(layout: &Layout, variant: Variant, unknowns: Unknowns, history: History) -> Self {
         let size = layout.variables();
         let starts = history.newest().iter().map(|&value| [value, 0.0, 0.0]);
@@ -386,7 +386,7 @@ impl Arcs {
     }
 }
 
-impl Curves for Arcs {
+impl Curves for HermiteCurves {
     fn length(&self) -> f64 {
         self.length
     }
