@@ -236,7 +236,7 @@ fn no_joints_and_no_connections() {
     for coupling in [
         "method=weighted",
         "method=explicit mu=10H",
-        "method=jacobi stiffness=1.0",
+        "method=penalty stiffness=1.0",
     ] {
         let alone = run(&with_settings(&text, coupling, &[TIGHT]), Place::InProcess);
         let integral = alone.column("controller.integral");

@@ -129,25 +129,6 @@ fn a_name_that_is_taken() {
     );
 }
 
-#[test]
-fn methods_that_connect_no_signals() {
-    for method in ["jacobi", "gauss-seidel"] {
-        let coupling = format!("method = \"{method}\"\nstiffness = 1e4");
-        refused(
-            &[
-                ("method = \"weighted\"", &coupling),
-                ("exchanged_degree = 2 ", "# "),
-            ],
-            "[[connection]]",
-            &[
-                "connection.speed",
-                "jacobi and gauss-seidel connect no signals",
-                "coupling.method = \"weighted\"",
-            ],
-        );
-    }
-}
-
 /// Both would be of degrees of their own.
 #[test]
 fn a_signal_and_a_load_of_automatic_degrees_at_one_input() {

@@ -29,7 +29,7 @@ fn a_run_that_fails_leaves_nothing_of_an_earlier_one() {
         .succeeds();
     let settings = [
         "--set",
-        "coupling.method=jacobi",
+        "coupling.method=penalty",
         "--set",
         "coupling.stiffness=1e9",
     ];
