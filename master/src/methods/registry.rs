@@ -1,4 +1,4 @@
-//! Which coupling methods there are: the only place that names them all.
+//! Which coupling methods there are: the only place that knows the types of all of them.
 
 use super::condition::Condition;
 use super::explicit::Explicit;
