@@ -14,7 +14,8 @@ use crate::system::unknowns::Unknowns;
 use crate::system::{Outputs, Point, System};
 
 /// A coupling method: `predict`, `accept`, `reached`, step after step. It stands at the present macro point `T_N`, and `accept` takes it
-/// to `T_{N+1}`; until then every `predict` begins an attempt at the step anew, as if there had been none before.
+/// to `T_{N+1}`, or `reached` where nothing is corrected; until then every `predict` begins an attempt at the step anew, as if there had
+/// been none before.
 pub trait CouplingMethod: Send {
     /// Predicts the coupling variables over a step of length `length` (s).
     fn predict(&mut self, length: f64);

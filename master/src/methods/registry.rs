@@ -1,4 +1,4 @@
-//! Which coupling methods there are: the only place that names them, a line for each.
+//! How the list of all methods is read.
 
 use super::definition::Definition;
 use crate::reading::formula::Steps;

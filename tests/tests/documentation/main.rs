@@ -11,4 +11,5 @@ mod links;
 mod messages;
 mod page;
 mod reference;
+mod stations;
 mod walk;

@@ -1,7 +1,7 @@
 //! Hermite coupling: multipliers that are polynomials of their own on every macro step.
 //!
-//! On the step from `T_N` to `T_{N+1}` a multiplier is a polynomial of degree 1 to 3 in `s = (t - T_N)/H`. Nothing of it comes
-//! from steps before but, in the variants that are continuous, its start value. It has as many unknown values at equidistant
+//! On the step from `T_N` to `T_{N+1}` a multiplier is a quadratic polynomial in `s = (t - T_N)/H`. Nothing of it comes from
+//! steps before but, in the variant that is continuous, its start value. It has as many unknown values at equidistant
 //! nodes as there are conditions ([`Variant`]), for APV
 //!
 //! ```text
