@@ -8,14 +8,14 @@
 //! * [`joint`]: coupling conditions and loads of each kind of joint;
 //! * [`reading`]: what the user wrote, with places;
 //! * [`connection`]: workers, in this process or behind gRPC, and starting them;
-//! * [`error`]: what ends a run;
 //! * [`layout`]: which outputs the joints read, which are exchanged, and which inputs are driven;
 //! * [`system`]: conditions and Jacobian of the whole scene;
 //! * [`results`]: rows, residuals, verdicts, statistics;
-//! * [`workers`]: requests to the workers and their answers;
 //! * [`accuracy`]: how large the error of a macro step is, and how large it may be;
 //! * [`methods`]: the coupling methods;
 //! * [`policies`]: what decides about a macro step;
+//! * [`error`]: what ends a run;
+//! * [`workers`]: requests to the workers and their answers;
 //! * [`scene`]: what is coupled, how, and for how long, checked and resolved;
 //! * [`macro_step`]: one macro step, top to bottom;
 //! * [`run`]: the loop around it, and what a run is at a macro point;

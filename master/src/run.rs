@@ -137,7 +137,7 @@ impl CoSimulation {
         self.run.workers.samples.as_ref()?.at(self.t())
     }
 
-    /// The markers of all subsystems, if their positions are recorded ([`crate::setup::Options::record_markers`]).
+    /// The markers of all subsystems, if their positions are recorded (`Options::record_markers`).
     pub fn mechanism(&self) -> Option<&Mechanism> {
         self.mechanism.as_ref()
     }

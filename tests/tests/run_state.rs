@@ -215,5 +215,10 @@ fn the_state_of_another_method_is_refused() {
     let state = stopped.state();
     let error = start(&explicit).resume(state, stopped).unwrap_err();
     assert!(matches!(error, RunError::Resume(_)), "{error}");
-    assert!(error.to_string().contains("another method"), "{error}");
+    assert!(
+        error
+            .to_string()
+            .contains("coupling method hermite, this run has explicit"),
+        "{error}"
+    );
 }

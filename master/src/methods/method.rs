@@ -24,7 +24,7 @@ pub trait CouplingMethod: Send {
     /// raised.
     fn lend(&self, to: &mut dyn FnMut(&dyn Curves, &dyn Curves));
 
-    /// The values at the end of the step, as predicted or corrected last.
+    /// The values at the end of the step, as predicted or corrected last; after [`CouplingMethod::reached`] those that were reached.
     fn ends(&self) -> &[f64];
 
     /// The step is taken, with the curves that [`CouplingMethod::lend`] lends.

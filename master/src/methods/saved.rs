@@ -5,29 +5,43 @@ use serde::{Deserialize, Serialize};
 
 /// The state of a method, of which only the method itself knows what it is. Numbers are kept bit by bit.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Saved(Vec<u8>);
+pub struct Saved {
+    /// What the state is of.
+    of: String,
+    bytes: Vec<u8>,
+}
 
 /// A state that its reader cannot read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the state of the coupling method belongs to another method or another version of Linchpin"
+    "it is one of the coupling method {found}, this run has {expected}; go on with the scene and the version of Linchpin that wrote it"
 )]
-pub struct Unreadable;
+pub struct Unreadable {
+    /// What it is of.
+    pub found: String,
+    /// What it was to be of.
+    pub expected: String,
+}
 
 impl Saved {
-    /// Writes a state; a state that cannot be written is empty, and cannot be read.
-    pub fn of(state: &impl Serialize) -> Self {
-        Self(postcard::to_stdvec(state).unwrap_or_default())
+    /// Writes the state `of` a method; one that cannot be written is empty, and cannot be read.
+    pub fn new(of: &str, state: &impl Serialize) -> Self {
+        Self {
+            of: of.to_owned(),
+            bytes: postcard::to_stdvec(state).unwrap_or_default(),
+        }
     }
 
-    /// Reads it back.
+    /// Reads the state `of` a method back.
     ///
     /// # Errors
-    /// It is no state of this type.
-    pub fn read<T: DeserializeOwned>(&self) -> Result<T, Unreadable> {
-        match postcard::take_from_bytes(&self.0) {
-            Ok((state, [])) => Ok(state),
-            _ => Err(Unreadable),
-        }
+    /// It is one of another method, or of another version of this one.
+    pub fn read<T: DeserializeOwned>(&self, of: &str) -> Result<T, Unreadable> {
+        let read = postcard::take_from_bytes(&self.bytes).ok();
+        let whole = read.filter(|(_, rest)| rest.is_empty() && self.of == of);
+        whole.map(|(state, _)| state).ok_or_else(|| Unreadable {
+            found: self.of.clone(),
+            expected: of.to_owned(),
+        })
     }
 }

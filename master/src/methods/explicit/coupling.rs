@@ -12,6 +12,9 @@ use crate::system::solve::LinearSolver;
 use crate::system::unknowns::Unknowns;
 use crate::system::{Outputs, System};
 
+/// Whose states are written.
+const NAME: &str = "explicit";
+
 /// `(mu d/dt + 1)^2 g = g + 2 mu g' + mu^2 g'' = 0` at `T_N` gives the multipliers, which are held over the step to
 /// `T_{N+1}`, as exchanged variables are. `g''` depends on the multipliers at once, so an evaluation at the macro point suffices
 /// and no macro step is repeated.
@@ -109,11 +112,11 @@ impl CouplingMethod for ExplicitCoupling {
     }
 
     fn state(&self) -> Saved {
-        Saved::of(&self.state)
+        Saved::new(NAME, &self.state)
     }
 
     fn resume(&mut self, state: &Saved) -> Result<(), Unreadable> {
-        self.state = state.read()?;
+        self.state = state.read(NAME)?;
         Ok(())
     }
 

@@ -25,6 +25,9 @@ const MOTION_SHARE: f64 = 1.0 / 60.0;
 /// The power of the step with which that difference falls.
 const MOTION_ORDER: usize = 4;
 
+/// Whose states are written.
+const NAME: &str = "hermite";
+
 /// State of Hermite coupling between two macro steps.
 pub struct HermiteCoupling {
     variant: Variant,
@@ -170,7 +173,7 @@ impl CouplingMethod for HermiteCoupling {
     }
 
     fn state(&self) -> Saved {
-        Saved::of(&State {
+        Saved::new(NAME, &State {
             past: self.curves.past(),
             before: self.before.past(),
             multipliers: self.multipliers.clone(),
@@ -178,7 +181,7 @@ impl CouplingMethod for HermiteCoupling {
     }
 
     fn resume(&mut self, state: &Saved) -> Result<(), Unreadable> {
-        let state: State = state.read()?;
+        let state: State = state.read(NAME)?;
         self.curves.resume(state.past);
         self.before.resume(state.before);
         self.settled.take(&self.before);

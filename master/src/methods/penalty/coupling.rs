@@ -22,6 +22,9 @@ use crate::methods::saved::{Saved, Unreadable};
 use crate::signal::{Curve, Curves, History, Lagrange, Variables};
 use crate::system::{Outputs, motion_of};
 
+/// Whose states are written.
+const NAME: &str = "penalty";
+
 /// A penalty coupling.
 pub struct PenaltyCoupling {
     springs: Vec<Spring>,
@@ -157,11 +160,11 @@ impl CouplingMethod for PenaltyCoupling {
     }
 
     fn state(&self) -> Saved {
-        Saved::of(&self.state)
+        Saved::new(NAME, &self.state)
     }
 
     fn resume(&mut self, state: &Saved) -> Result<(), Unreadable> {
-        self.state = state.read()?;
+        self.state = state.read(NAME)?;
         Ok(())
     }
 }

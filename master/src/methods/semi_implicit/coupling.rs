@@ -14,6 +14,9 @@ use crate::system::solve::LinearSolver;
 use crate::system::unknowns::Unknowns;
 use crate::system::{Outputs, Point, System};
 
+/// Whose states are written; methods 1 and 2 remember the same.
+const NAME: &str = "semi-implicit";
+
 /// Multipliers and exchanged variables are Lagrange polynomials through past values: the prediction extrapolates them, the correction
 /// has the value at the end of the step for one more node.
 pub struct SemiImplicit {
@@ -151,11 +154,11 @@ impl CouplingMethod for SemiImplicit {
     }
 
     fn state(&self) -> Saved {
-        Saved::of(&self.state)
+        Saved::new(NAME, &self.state)
     }
 
     fn resume(&mut self, state: &Saved) -> Result<(), Unreadable> {
-        self.state = state.read()?;
+        self.state = state.read(NAME)?;
         Ok(())
     }
 

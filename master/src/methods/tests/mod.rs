@@ -106,11 +106,11 @@ impl CouplingMethod for HeldForces {
     }
 
     fn state(&self) -> Saved {
-        Saved::of(self)
+        Saved::new(Held::NAME, self)
     }
 
     fn resume(&mut self, state: &Saved) -> Result<(), Unreadable> {
-        *self = state.read()?;
+        *self = state.read(Held::NAME)?;
         Ok(())
     }
 }
