@@ -27,7 +27,7 @@ const COUPLINGS: [&str; 8] = [
     "method=weighted index=1 a=2 b=2.6 degree=2 tolerance=1e-7",
     "method=explicit mu=10H macro_step=2.3e-3",
     "method=penalty stiffness=2.7e4 damping=31 degree=1 macro_step=3.1e-3",
-    "method=penalty stiffness=2.7e4 damping=31 degree=2 macro_step=1.3e-3",
+    "method=penalty stiffness=2.7e4 damping=31 degree=2 macro_step=1.1e-3",
     "method=penalty order=gauss-seidel stiffness=2.7e4 damping=31 degree=1 macro_step=1.7e-3",
 ];
 
