@@ -11,5 +11,6 @@ mod links;
 mod messages;
 mod page;
 mod reference;
+mod scene_keys;
 mod stations;
 mod walk;
