@@ -3,7 +3,7 @@
 use super::equations::System;
 use super::motion::motion_of;
 use super::point::Point;
-use crate::joint::{Level, ROUNDING};
+use crate::joint::Level;
 use crate::layout::Layout;
 
 impl System {
@@ -50,33 +50,5 @@ impl System {
                 }
             }
         }
-    }
-
-    /// Takes what is rounding in the residuals as 0, so that a condition that is met asks for no change.
-    pub fn drop_rounding(&mut self, layout: &Layout, point: Point<'_>) {
-        let mut row = 0;
-        for (joint, motion) in layout.joints.iter().zip(&self.motions) {
-            for condition in joint.joint.conditions() {
-                for &level in self.level.up_to() {
-                    let residual = &mut self.residuals[level as usize][row];
-                    drop_below(ROUNDING * condition.extent(level, motion), residual);
-                }
-                row += 1;
-            }
-        }
-        for (row, variable) in point.w.iter().enumerate().skip(self.rows) {
-            for &level in self.level.up_to() {
-                drop_below(
-                    ROUNDING * variable.abs(),
-                    &mut self.residuals[level as usize][row],
-                );
-            }
-        }
-    }
-}
-
-fn drop_below(least: f64, residual: &mut f64) {
-    if residual.abs() <= least {
-        *residual = 0.0;
     }
 }

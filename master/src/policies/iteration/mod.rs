@@ -1,6 +1,8 @@
 //! How often a macro step is corrected, and when the columns of the coupling Jacobian are asked for afresh.
 
 mod rules;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 

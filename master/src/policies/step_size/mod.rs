@@ -10,6 +10,8 @@
 
 mod control;
 mod settings;
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 
