@@ -1,10 +1,10 @@
 //! Reading of what a user wrote: a tree of values with their places, all mistakes together.
 //!
-//! * `text`, [`written`], [`place`]: a TOML file as it is written, with the place of every value;
-//! * [`overrides`]: values that the command line sets;
-//! * [`reader`]: sections and fields, checked; [`lists`], [`names`], [`reference`]: tables in lists, and names that refer to them;
-//! * [`formula`]: numbers that may be multiples of the macro step;
-//! * [`error`], [`error_kind`], [`nearest`]: mistakes, and what was probably meant.
+//! * `text`, `written`, `place`: a TOML file as it is written, with the place of every value;
+//! * `overrides`: values that the command line sets;
+//! * `reader`: sections and fields, checked; `lists`, `names`, `reference`: tables in lists, and names that refer to them;
+//! * `formula`: numbers that may be multiples of the macro step;
+//! * `error`, `error_kind`, `nearest`: mistakes, and what was probably meant.
 
 pub(crate) mod error;
 pub(crate) mod error_kind;
