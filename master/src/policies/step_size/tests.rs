@@ -87,7 +87,7 @@ proptest! {
         let found = estimate(scaled, order, 1.0);
         let repetition = controller().repeat(step(0.1), error(found)).unwrap();
         let ratio = repetition.length / 0.1;
-        prop_assert!(ratio <= SETTINGS.safety && ratio >= 0.09);
+        prop_assert!((0.09..=SETTINGS.safety).contains(&ratio));
         let shrunk_as_far_as_allowed = ratio < 0.101;
         prop_assert!(scaled * ratio.powi(order as i32) <= 1.0 || shrunk_as_far_as_allowed);
         prop_assert!(!repetition.has_jumped);
