@@ -16,6 +16,9 @@ pub enum RunError {
     /// A run cannot go on from a state.
     #[error("cannot go on from this state: {0}")]
     Resume(#[from] Unreadable),
+    /// A state belongs to another run.
+    #[error("cannot go on from this state: {0}; go on with the scene that wrote it")]
+    OtherRun(String),
     /// A worker could not be started or reached.
     #[error("subsystem \"{subsystem}\": {source}")]
     Start {

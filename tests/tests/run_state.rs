@@ -222,3 +222,25 @@ fn the_state_of_another_method_is_refused() {
         "{error}"
     );
 }
+
+/// Of equal columns or not: other subsystems, joints, recorded outputs, steps that vary.
+#[test]
+fn the_state_of_another_scene_is_refused() {
+    let stopped = start(&scene(OSCILLATOR, &[]));
+    let state = stopped.state();
+    let error = start(&scene(DOUBLE_PENDULUM, &[])).resume(state, stopped);
+    let told = error.unwrap_err().to_string();
+    assert!(
+        told.contains("\"link.lambda\"") && told.contains("\"hinge.lambda.x\""),
+        "{told}"
+    );
+    let variable = scene(OSCILLATOR, &["coupling.tolerance=1e-5"]);
+    let stopped = start(&variable);
+    let state = stopped.state();
+    let error = start(&scene(OSCILLATOR, &[])).resume(state, stopped);
+    let told = error.unwrap_err().to_string();
+    assert!(
+        told.contains("\"step\"") && told.contains("nothing more"),
+        "{told}"
+    );
+}

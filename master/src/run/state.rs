@@ -19,6 +19,8 @@ use crate::time::{MacroStep, TimePlan};
 /// workers' descriptions say. Any serde format keeps it that keeps all bits of numbers, also of infinite ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunState {
+    /// What the run couples and records: names of the coupling variables, then of the result columns.
+    names: Vec<String>,
     plan: TimePlan,
     /// The last macro step, which ends at the macro point.
     last: MacroStep,
@@ -55,6 +57,7 @@ impl CoSimulation {
             work: own.work.encode_to_vec(),
         });
         RunState {
+            names: self.names(),
             plan: self.run.plan.clone(),
             last: self.row.step(),
             method: self.run.method.state(),
@@ -73,24 +76,45 @@ impl CoSimulation {
         }
     }
 
+    /// Names of the coupling variables, then of the result columns.
+    fn names(&self) -> Vec<String> {
+        let layout = &self.run.layout;
+        let variables = (0..layout.variables()).map(|variable| layout.variable_name(variable));
+        variables
+            .chain(self.row.columns().iter().cloned())
+            .collect()
+    }
+
     /// Goes on from `state` in place of the start of the scene, with the workers of `stopped`, which stands at the macro point of that
     /// state. The look-ahead over the next macro step is asked for anew, in an exchange of its own; all results are those that `stopped`
     /// would have had, bit by bit.
     ///
     /// # Errors
-    /// What ends the run.
+    /// The state belongs to another scene or another method, and what ends a run.
     pub fn resume(&mut self, state: RunState, stopped: Self) -> Result<(), RunError> {
+        let names = self.names();
+        if state.names != names {
+            return Err(RunError::OtherRun(first_difference(&state.names, &names)));
+        }
+        let works = state
+            .workers
+            .iter()
+            .map(|own| v1::Work::decode(&own.work[..]));
+        let works: Vec<v1::Work> = works.collect::<Result<_, _>>().map_err(|error| {
+            RunError::OtherRun(format!(
+                "what its workers have done cannot be read: {error}"
+            ))
+        })?;
+        self.run.method.resume(&state.method)?;
         self.run.workers = stopped.run.workers;
         let subsystems = self.run.workers.subsystems.iter_mut();
-        for (subsystem, state) in subsystems.zip(state.workers) {
+        for (subsystem, (state, work)) in subsystems.zip(state.workers.into_iter().zip(works)) {
             subsystem.outputs = state.outputs;
             subsystem.exchanges = state.exchanges;
             subsystem.asked = state.asked;
-            // What was encoded by the same contract can be read.
-            subsystem.work = v1::Work::decode(&state.work[..]).unwrap_or_default();
+            subsystem.work = work;
         }
         self.run.plan = state.plan;
-        self.run.method.resume(&state.method)?;
         if let (Some(own), Some(state)) = (&mut self.run.corrector, state.corrector) {
             own.resume(state);
         }
@@ -113,4 +137,19 @@ impl CoSimulation {
             None => Ok(()),
         }
     }
+}
+
+/// Where the names of a state and of a run part.
+fn first_difference(found: &[String], expected: &[String]) -> String {
+    let all = found.len().max(expected.len());
+    let place = (0..all).find(|&place| found.get(place) != expected.get(place));
+    let name = |names: &[String]| {
+        let name = place.and_then(|place| names.get(place));
+        name.map_or_else(|| "nothing more".to_owned(), |name| format!("\"{name}\""))
+    };
+    format!(
+        "it has {} where this run has {}",
+        name(found),
+        name(expected)
+    )
 }
