@@ -55,6 +55,7 @@ fn advance_alone(run: &mut Run, step: MacroStep) -> Result<(), RunError> {
             workers.exchange(step)?;
         }
         Order::GaussSeidel => {
+            workers.find_samples(step);
             for number in 0..workers.subsystems.len() {
                 method.lend(&mut |curves, _| {
                     workers.request_advance_of(layout, number, step, curves);

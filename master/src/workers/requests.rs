@@ -18,29 +18,19 @@ impl Workers {
     ) {
         self.find_samples(step);
         for number in 0..self.subsystems.len() {
-            self.fill_advance(layout, number, step, curves);
+            self.request_advance_of(layout, number, step, curves);
         }
     }
 
-    /// Makes the next request to one subsystem advance over `step` with these curves.
-    pub(crate) fn request_advance_of(
-        &mut self,
-        layout: &Layout,
-        number: usize,
-        step: MacroStep,
-        curves: &dyn Curves,
-    ) {
-        self.find_samples(step);
-        self.fill_advance(layout, number, step, curves);
-    }
-
-    fn find_samples(&mut self, step: MacroStep) {
+    /// Finds the samples inside `step`, for all advances over it.
+    pub(crate) fn find_samples(&mut self, step: MacroStep) {
         if let Some(samples) = &mut self.samples {
             samples.find(step);
         }
     }
 
-    fn fill_advance(
+    /// Makes the next request to one subsystem advance over `step` with these curves; its samples have been found.
+    pub(crate) fn request_advance_of(
         &mut self,
         layout: &Layout,
         number: usize,
@@ -66,8 +56,10 @@ impl Workers {
         }
     }
 
-    /// Makes every subsystem's next request look ahead; subsystems whose outputs nobody reads have nothing to tell.
+    /// Makes every subsystem's next request look ahead; subsystems whose outputs nobody reads have nothing to tell. Perturbed inputs come
+    /// subsystem by subsystem, as the inputs of the layout do.
     pub(crate) fn request_look(&mut self, layout: &Layout, look: Look<'_>) {
+        let mut rest = look.perturbed;
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
             if look.ahead == Ahead::Step {
                 subsystem.looks_ahead_for = look.cause;
@@ -75,21 +67,21 @@ impl Workers {
             if !subsystem.is_read() {
                 continue;
             }
+            let is_own = |one: &Perturbation| layout.inputs[one.input].subsystem == number;
+            let own = rest.partition_point(is_own);
+            let (perturbed, others) = rest.split_at(own);
+            rest = others;
             let inputs = layout.inputs_of(number);
+            let directions = perturbed
+                .iter()
+                .filter(|one| one.increment.is_none())
+                .count();
             let request = subsystem.look(look.ahead);
             request.t = look.t;
             request.step = look.length;
             request.signals.resize_with(inputs.len(), Default::default);
-            let of_subsystem = |one: &&Perturbation| layout.inputs[one.input].subsystem == number;
-            let own = look.perturbed.iter().filter(of_subsystem);
-            let (mut perturbed, mut directions) = (0, 0);
-            for one in own {
-                match one.increment {
-                    Some(_) => perturbed += 1,
-                    None => directions += 1,
-                }
-            }
-            request.perturbed.resize_with(perturbed, Default::default);
+            let steps = perturbed.len() - directions;
+            request.perturbed.resize_with(steps, Default::default);
             request.directions.resize_with(directions, Default::default);
             let mut over = Over {
                 curves: look.curves,
@@ -98,26 +90,18 @@ impl Workers {
             for input in inputs {
                 input.signal(&mut over, subsystem.look_signal(look.ahead, input.place));
             }
-        }
-        self.request_perturbed(layout, look);
-    }
-
-    fn request_perturbed(&mut self, layout: &Layout, look: Look<'_>) {
-        let mut over = Over {
-            curves: look.raised,
-            memory: &mut self.memory,
-        };
-        for one in look.perturbed {
-            let input = &layout.inputs[one.input];
-            let subsystem = &mut self.subsystems[input.subsystem];
-            match one.increment {
-                Some(increment) => {
-                    let signal = subsystem.perturbed_signal(look.ahead, one.place, input.place);
-                    input.raised_signal(&mut over, &one.shape, increment, signal);
-                }
-                None => {
-                    let signal = subsystem.direction_signal(look.ahead, one.place, input.place);
-                    input.direction(&mut over, &one.shape, signal);
+            over.curves = look.raised;
+            for one in perturbed {
+                let input = &layout.inputs[one.input];
+                match one.increment {
+                    Some(increment) => {
+                        let signal = subsystem.perturbed_signal(look.ahead, one.place, input.place);
+                        input.raised_signal(&mut over, &one.shape, increment, signal);
+                    }
+                    None => {
+                        let signal = subsystem.direction_signal(look.ahead, one.place, input.place);
+                        input.direction(&mut over, &one.shape, signal);
+                    }
                 }
             }
         }
