@@ -2,7 +2,8 @@
 //!
 //! What the workers foresee at the end of the step came with the exchange before. So a step is corrected before any worker takes it,
 //! and one exchange both advances over it and looks ahead over the following one. Where steps vary, a step that is rejected is tried
-//! again, shorter, by another look-ahead from the same macro point: nothing that lasts is changed before a step is accepted.
+//! again, shorter, by another look-ahead from the same macro point: but for what the rejection decides, columns, degrees and histories that
+//! start anew at a jump, nothing that lasts is changed before a step is accepted.
 //!
 //! * `advance`: the exchange;
 //! * `correcting`: prediction, look-ahead and correction, and what they teach;

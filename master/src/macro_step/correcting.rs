@@ -17,6 +17,7 @@ use crate::policies::iteration::{IterationControl, Missed};
 use crate::policies::linearisation_check::LinearisationCheck;
 use crate::policies::norm::Norm;
 use crate::results::{Cause, Verdict};
+use crate::system::Outputs;
 use crate::system::unknowns::Unknowns;
 use crate::time::MacroStep;
 use crate::workers::{Ahead, Look, Workers};
@@ -288,7 +289,7 @@ impl Correcting<'_> {
         } = &mut *self.own;
         let system = &mut end.system;
         let now = self.workers.now();
-        let outputs = |subsystem: usize| crate::system::Outputs::of(&now, subsystem);
+        let outputs = |subsystem: usize| now.of(subsystem);
         system.assemble_residuals(self.layout, outputs, self.method.corrected_point());
         self.method.remaining(system, remaining);
         let unknowns = system.unknowns();

@@ -1,10 +1,13 @@
 //! The error of a macro step, before any worker has taken it, and with it the degrees of the next one.
 
 use super::correcting::Correcting;
+use super::jacobian::Jacobian;
 use crate::accuracy::{Correction, Estimate, Suspect, Tolerance};
+use crate::layout::Layout;
 use crate::methods::LoadErrors;
 use crate::policies::degree::{AutomaticDegrees, Group, Prospect, Prospects, Purpose};
 use crate::policies::step_size::{Rule, StepSize};
+use crate::system::Outputs;
 use crate::time::MacroStep;
 
 impl Correcting<'_> {
@@ -25,17 +28,8 @@ impl Correcting<'_> {
         let loads = self.add_errors_of_multipliers(step, tolerance, degrees[0], &mut estimate);
         let now = self.workers.now();
         let own = &mut *self.own;
-        let correction = Correction {
-            layout: self.layout,
-            outputs: &now,
-            step: step.length,
-            system: &own.end.system,
-            columns: own.end.columns.all(),
-            change: &own.change,
-            errors: &own.errors,
-            share: loads.shares.position,
-            order: loads.shares.order + 2,
-        };
+        let solved = (&own.end, &own.change[..], &own.errors[..]);
+        let correction = correction(self.layout, &now, step, solved, loads);
         own.position_errors
             .add_openings(correction, tolerance, &mut estimate);
         self.add_errors_of_exchanged(tolerance, degrees[1], &mut estimate);
@@ -58,17 +52,8 @@ impl Correcting<'_> {
             .method
             .load_errors(unknowns, rows, &own.change, degree, &mut own.errors);
         estimate.change = estimate.change.max(loads.change);
-        let correction = Correction {
-            layout: self.layout,
-            outputs: &now,
-            step: step.length,
-            system: &own.end.system,
-            columns: own.end.columns.all(),
-            change: &own.change,
-            errors: &own.errors,
-            share: loads.shares.position,
-            order: loads.shares.order + 2,
-        };
+        let solved = (&own.end, &own.change[..], &own.errors[..]);
+        let correction = correction(self.layout, &now, step, solved, loads);
         own.position_errors
             .add_errors(correction, tolerance, estimate);
         loads
@@ -169,5 +154,26 @@ impl Correcting<'_> {
         for (variables, degree) in degrees.present() {
             self.method.set_degree(variables, degree);
         }
+    }
+}
+
+/// What the errors of the multipliers make of a correction: that was solved with this Jacobian, for this change, with these errors.
+fn correction<'a>(
+    layout: &'a Layout,
+    outputs: &'a dyn Outputs,
+    step: MacroStep,
+    (end, change, errors): (&'a Jacobian, &'a [f64], &'a [f64]),
+    loads: LoadErrors,
+) -> Correction<'a> {
+    Correction {
+        layout,
+        outputs,
+        step: step.length,
+        system: &end.system,
+        columns: end.columns.all(),
+        change,
+        errors,
+        share: loads.shares.position,
+        order: loads.shares.order + 2,
     }
 }

@@ -150,8 +150,8 @@ fn assemble(
     };
     let first = plan.step().map_or(0.0, |step| step.length);
     let given = options.degrees.clone();
-    let method_of_scene = coupling.method;
-    let stable = Box::new(move |length| scene::highest_stable_degree(method_of_scene, length));
+    let of_scene = coupling.method;
+    let stable = Box::new(move |length| scene::highest_stable_degree(of_scene, length));
     Ok(Run {
         degrees: AutomaticDegrees::new(stable, &layout, highest, first, given),
         corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),
