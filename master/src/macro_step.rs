@@ -27,6 +27,7 @@ pub(crate) use run::Run;
 use crate::accuracy::Estimate;
 use crate::error::RunError;
 use crate::policies::iteration::IterationControl;
+use crate::policies::step_size::StepSize;
 use crate::results::Outcome;
 use crate::time::MacroStep;
 use advance::advance;
@@ -77,7 +78,8 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
         return Err(error.into());
     }
     outcome.solving += own.correct(step)?;
-    if let Some(step_size) = policies.step_size {
+    let step_size = policies.step_size.as_deref();
+    if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
         let next = own.choose_degrees(policies.degrees, step, step_size, &found);
         if step_size.is_too_long(&found) {
@@ -90,11 +92,12 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
         }
         estimates = Some([found, next]);
     }
-    own.begin(&mut iteration);
+    let tolerance = step_size.map(StepSize::tolerance);
+    own.begin(&mut iteration, step, tolerance);
     while let Some(with_columns) = iteration.next_pass() {
         own.look_again(step, with_columns)?;
         outcome.solving += own.correct(step)?;
-        iteration.note_pass(own.size_of_change(), with_columns);
+        iteration.note_pass(own.size_of_change(step, tolerance), with_columns);
     }
     let converged = iteration.check();
     converged.map_err(|because| Rejection::not_converged(own.layout, step, because))?;

@@ -7,19 +7,34 @@ use crate::v1::{Advance, Failure, Predict};
 /// # Errors
 /// [`Failure`] of severity misuse that names the first sample which is not.
 pub fn check_samples(advance: &Advance) -> Result<(), Failure> {
+    check_inside(
+        ["advance.samples", "sample"],
+        &advance.samples,
+        advance.step,
+    )
+}
+
+/// The instants at which a step is cut are ascending and inside it.
+///
+/// # Errors
+/// [`Failure`] of severity misuse that names the first instant which is not.
+pub fn check_instants(instants: &[f64], step: f64) -> Result<(), Failure> {
+    check_inside(["instants", "instant"], instants, step)
+}
+
+fn check_inside([field, what]: [&str; 2], offsets: &[f64], step: f64) -> Result<(), Failure> {
     let mut earliest = 0.0;
-    for (place, &sample) in advance.samples.iter().enumerate() {
-        if !(sample > earliest && sample < advance.step) {
+    for (place, &offset) in offsets.iter().enumerate() {
+        if !(offset > earliest && offset < step) {
             return Err(Failure::misuse(
-                "advance.samples",
+                field,
                 format!(
-                    "sample {place} is {sample} s after the start of the step; it must be after {earliest} s and before \
-                     the end of the step at {} s",
-                    advance.step
+                    "{what} {place} is {offset} s after the start of the step; it must be after {earliest} s and before \
+                     the end of the step at {step} s"
                 ),
             ));
         }
-        earliest = sample;
+        earliest = offset;
     }
     Ok(())
 }

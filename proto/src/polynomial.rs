@@ -126,6 +126,14 @@ impl Polynomial {
         sum
     }
 
+    /// The polynomial `q(tau) = p(start + tau)`: the same, with the time counted from `start` on.
+    pub fn shifted(mut self, start: f64) -> Self {
+        for node in &mut self.nodes[..self.len] {
+            *node -= start;
+        }
+        self
+    }
+
     /// Coefficients `a_j` of `p(scale * s) = a_0 + a_1 s + a_2 s^2 + ...`; entries above the degree are 0.
     ///
     /// With `scale` = the step size the argument `s` runs from 0 to 1, whatever the unit of time.

@@ -248,9 +248,11 @@ fn joint_loads_allocate_nothing() {
                 step: 1e-2,
                 signals: signals.clone(),
                 samples: vec![3e-3, 8e-3],
+                instants: vec![2e-3, 7e-3],
             }),
             predict: Some(v1::Predict {
                 step: 1e-2,
+                instants: vec![2e-3, 7e-3],
                 ..look.clone()
             }),
             evaluate: Some(look),
@@ -273,6 +275,7 @@ fn directional_derivatives_allocate_nothing() {
         parameters: [("m".into(), number(1.3)), ("c".into(), number(170.0))].into(),
         inputs: vec!["f".into(), "partner_x".into()],
         coupling_outputs: vec!["x".into(), "a".into()],
+        interior_outputs: vec!["x".into()],
         ..v1::InitializeRequest::default()
     };
     host.initialize(&instance).unwrap();
@@ -294,10 +297,12 @@ fn directional_derivatives_allocate_nothing() {
         advance: Some(v1::Advance {
             step: 1e-2,
             signals,
+            instants: vec![2e-3, 7e-3],
             ..v1::Advance::default()
         }),
         predict: Some(v1::Predict {
             step: 1e-2,
+            instants: vec![2e-3, 7e-3],
             ..look.clone()
         }),
         evaluate: Some(look),

@@ -237,6 +237,7 @@ fn an_advance_is_taken_back_and_samples_disturb_nothing() {
             step: 7e-4,
             signals: force(end),
             samples: samples.to_vec(),
+            ..v1::Advance::default()
         })
     };
     let predict = v1::Predict {
@@ -245,6 +246,7 @@ fn an_advance_is_taken_back_and_samples_disturb_nothing() {
         signals: force(3.0),
         perturbed: force(4.0),
         directions: force(1.0),
+        ..v1::Predict::default()
     };
     let go = |instance, turns: &[(bool, Option<v1::Advance>)]| {
         calls.initialize(&initialize(instance)).unwrap();

@@ -298,6 +298,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         exportable_snapshot: false,
         joint_loads: own.joint_loads,
         directional_derivatives: own.directional_derivatives,
+        interior_outputs: true,
     });
     model
 }

@@ -52,6 +52,13 @@ impl Inputs {
         }
     }
 
+    /// Takes over `whole`, with the time counted from `start` on (s), in memory that is already there.
+    pub(crate) fn shift(&mut self, whole: &Self, start: f64) {
+        let shifted = whole.polynomials.iter().map(|own| own.shifted(start));
+        self.polynomials.clear();
+        self.polynomials.extend(shifted);
+    }
+
     /// Replaces input number `input` and returns what it was.
     ///
     /// # Panics

@@ -121,7 +121,7 @@ impl Instance {
         let interval = interval(request.t, request.step)?;
         let mut outputs = v1::Outputs::default();
         self.motion.advance(
-            interval,
+            (interval, &request.instants),
             &request.signals,
             request.outputs(),
             &mut outputs.values,
@@ -154,20 +154,28 @@ impl Instance {
         request: &v1::PerturbedStepRequest,
     ) -> Result<v1::PerturbedStepReply, Failure> {
         let meter = Meter::start(&self.motion);
-        let horizon = Horizon::Step(interval(request.t, request.step)?);
+        let interval = interval(request.t, request.step)?;
         let (mut outputs, mut derivatives) = (Vec::new(), Vec::new());
         self.motion.set_signals(&request.signals)?;
-        self.motion.look_ahead_perturbed(
+        match &request.instants[..] {
+            [] => self.motion.look_ahead_perturbed(
+                Base::Committed,
+                Horizon::Step(interval),
+                &request.perturbed,
+                &mut outputs,
+            )?,
+            // What is not perturbed is integrated as well: its internal steps are repeated.
+            instants => self.motion.look_ahead_cut(
+                Base::Committed,
+                (interval, instants),
+                &request.perturbed,
+                (&mut Vec::new(), &mut outputs),
+            )?,
+        }
+        self.motion.look_in_directions_cut(
             Base::Committed,
-            horizon,
-            &request.perturbed,
-            &mut outputs,
-        )?;
-        self.motion.look_ahead_in_directions(
-            Base::Committed,
-            horizon,
+            (interval, &request.instants),
             &request.directions,
-            None,
             &mut derivatives,
         )?;
         Ok(v1::PerturbedStepReply {

@@ -73,8 +73,8 @@ pub trait Subsystem: Send {
     /// Goes back, bit by bit, to the state that [`Subsystem::snapshot`] wrote.
     fn restore(&mut self, from: &Snapshot) -> Result<(), StepFailure>;
 
-    /// Steps once more from where the last [`Subsystem::step`] started, over the same interval, with one input a
-    /// little different; the state has been restored. The difference of the two results becomes a column of the
+    /// Steps once more over the interval of the last [`Subsystem::step`], with one input a little different, from where that step
+    /// started or, behind an instant at which a step is cut, from a state a little different; it has been restored. The difference of the two results becomes a column of the
     /// coupling Jacobian, so a solver with step-size control should repeat the internal steps of that last call
     /// here (internal numerical differentiation). Solvers without control need nothing: the default steps.
     fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {

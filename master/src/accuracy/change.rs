@@ -13,6 +13,8 @@ pub struct Change {
     pub of_usual: f64,
     /// Relative to the variables themselves.
     pub of_size: f64,
+    /// Of what follows from the change, relative to the error that is allowed of a step, where an error is.
+    pub of_allowed: Option<f64>,
     /// First variable of the group whose change is the largest, relative to the variables themselves.
     pub variable: usize,
 }

@@ -11,6 +11,8 @@ pub struct Estimate {
     pub order: usize,
     /// What has it.
     pub suspect: Suspect,
+    /// Whether it is known from this step alone: then it does not swing with the lengths of the steps before.
+    pub is_of_step_alone: bool,
     /// Largest difference between a corrected and a predicted multiplier. Where the solution jumps it does not fall with the step.
     pub change: f64,
 }
@@ -39,6 +41,7 @@ impl Estimate {
         scaled: 0.0,
         order: 1,
         suspect: Suspect::None,
+        is_of_step_alone: false,
         change: 0.0,
     };
 

@@ -15,5 +15,5 @@ pub mod tolerance;
 pub use attempts::{Attempts, CHORD_ORDER};
 pub use change::{Change, MOST_LEFT};
 pub use estimate::{Estimate, Suspect};
-pub use position_error::{Correction, PositionErrors};
+pub use position_error::{Correction, Difference, PositionErrors};
 pub use tolerance::Tolerance;

@@ -29,6 +29,21 @@ pub struct Correction<'a> {
     pub order: usize,
 }
 
+/// A difference between two solutions.
+#[derive(Clone, Copy)]
+pub struct Difference<'a> {
+    /// What is coupled.
+    pub layout: &'a Layout,
+    /// Length of the step (s).
+    pub step: f64,
+    /// The system that was solved.
+    pub system: &'a System,
+    /// Its columns.
+    pub columns: &'a [Column],
+    /// The difference of all unknowns.
+    pub unknowns: &'a [f64],
+}
+
 /// Memory for the estimate.
 #[derive(Debug, Clone, Default)]
 pub struct PositionErrors {
@@ -43,6 +58,54 @@ impl PositionErrors {
             raised: Vec::new(),
             shift: vec![0.0; size],
         }
+    }
+
+    /// The largest difference over what is allowed: of positions at the joints, of velocities there times the length of the step, and of
+    /// connected signals, at the end of the step.
+    pub fn largest(&mut self, difference: Difference<'_>, tolerance: &Tolerance) -> Estimate {
+        let Difference {
+            layout,
+            system,
+            unknowns,
+            ..
+        } = difference;
+        let mut estimate = Estimate::NONE;
+        system.raise(layout, unknowns, &mut self.raised);
+        for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
+            let subsystem = end.subsystem;
+            let columns = system.columns_of(layout, subsystem);
+            let change = |output: usize| {
+                let responses = columns.clone().filter_map(|column| {
+                    let response = difference.columns[column].derivatives.get(output)?;
+                    Some(response * self.raised[column])
+                });
+                responses.sum::<f64>().abs()
+            };
+            let mut allowed_angle = f64::INFINITY;
+            for output in end.positions() {
+                let allowed = tolerance.allowed_of_output(subsystem, output);
+                if !end.coordinates().contains(&output) {
+                    allowed_angle = allowed_angle.min(allowed);
+                }
+                let suspect = Suspect::Output { subsystem, output };
+                estimate.add(change(output) / allowed, 1, suspect);
+            }
+            let coordinates = end.coordinates().iter();
+            let allowed = coordinates.map(|&place| tolerance.allowed_of_output(subsystem, place));
+            let allowed = allowed.chain(std::iter::repeat(allowed_angle));
+            for (output, allowed) in end.places(Level::Velocity).zip(allowed) {
+                let suspect = Suspect::Output { subsystem, output };
+                estimate.add(difference.step * change(output) / allowed, 1, suspect);
+            }
+        }
+        for exchanged in layout.exchanged.iter().filter(|one| one.rates.is_none()) {
+            let allowed = tolerance.allowed_in_step(exchanged.subsystem, exchanged.what);
+            for variable in exchanged.first..exchanged.first + exchanged.size() {
+                let change = unknowns[system.unknowns().of(variable).start].abs();
+                estimate.add(change / allowed, 1, Suspect::Variable(variable));
+            }
+        }
+        estimate
     }
 
     /// Adds the errors of the positions at all joints, which are the columns times the errors of the multipliers.

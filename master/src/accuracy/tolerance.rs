@@ -34,6 +34,8 @@ struct Size {
     largest: f64,
     most: f64,
     path: f64,
+    /// Number of values that the path goes through.
+    points: f64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -89,6 +91,7 @@ impl Tolerance {
             largest: 0.0,
             most,
             path: 0.0,
+            points: 0.0,
         });
         self.state.sizes.len() - 1
     }
@@ -101,7 +104,7 @@ impl Tolerance {
     fn begin(&mut self, outputs: &dyn Outputs) {
         self.observe(outputs);
         for size in &mut self.state.sizes {
-            size.path = 0.0;
+            (size.path, size.points) = (0.0, 0.0);
         }
     }
 
@@ -116,6 +119,7 @@ impl Tolerance {
                 size.largest = size.largest.max(value.abs()).min(size.most);
                 if size.largest > 0.0 {
                     size.path += (value - watched.last).abs() / size.largest;
+                    size.points += 1.0;
                 }
                 watched.last = value;
             }
@@ -142,6 +146,20 @@ impl Tolerance {
             None => self.absolute,
         };
         allowed.max(self.solvers[subsystem])
+    }
+
+    /// The error that is allowed of an exchanged variable in one step, where errors of all steps add up: that of a piece of the path as long as
+    /// its size, shared among the steps that it takes on the average.
+    pub fn allowed_in_step(&self, subsystem: usize, what: What) -> f64 {
+        let share = match what {
+            What::Output(output) => self.state.watched[subsystem][output].map_or(1.0, |watched| {
+                let Size { path, points, .. } = self.state.sizes[watched.size];
+                if path < points { path / points } else { 1.0 }
+            }),
+            What::Attitude { .. } => 1.0,
+        };
+        let share = if share > 0.0 { share } else { 1.0 };
+        (share * self.allowed_of_variable(subsystem, what)).max(self.solvers[subsystem])
     }
 
     /// How far a joint may be open in one row: as far as its markers may be off.

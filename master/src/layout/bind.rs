@@ -9,6 +9,7 @@ use super::bound::{BoundJoint, Layout, Row};
 use super::coupled::{Coupled, Lack, MarkedJoint, MarkerLacks};
 use super::exchanged::{Exchanged, PoseVariables, Rates, Turning, What};
 use super::input::{DrivenInput, Source};
+use super::inside::Inside;
 use super::marker::{BoundEnd, Parts, outputs_of};
 use super::named_load::NamedLoad;
 use crate::joint::Level;
@@ -70,6 +71,7 @@ impl<'a> Binder<'a> {
             frames: Vec::new(),
             outputs: vec![Vec::new(); subsystems],
             level,
+            inside: Inside::default(),
             ranges: vec![0..0; subsystems],
         };
         let mut binder = Self {

@@ -8,6 +8,7 @@ use nalgebra::UnitQuaternion;
 
 use super::exchanged::{Exchanged, What};
 use super::input::DrivenInput;
+use super::inside::Inside;
 use super::marker::BoundEnd;
 use crate::joint::{Joint, Level};
 use crate::signal::Variables;
@@ -34,6 +35,8 @@ pub struct Layout {
     pub outputs: Vec<Vec<String>>,
     /// Highest level of the conditions.
     pub level: Level,
+    /// What is read inside a step.
+    pub inside: Inside,
     pub(super) ranges: Vec<Range<usize>>,
 }
 
@@ -83,6 +86,11 @@ impl Layout {
         let attitudes = self.attitudes();
         let rotations = attitudes.map(|exchanged| exchanged.first).collect();
         Variables { degrees, rotations }
+    }
+
+    /// Whether variables are exchanged without rates.
+    pub fn has_signals(&self) -> bool {
+        self.exchanged.iter().any(|one| one.rates.is_none())
     }
 
     /// Whether a variable is exchanged without rates.

@@ -3,6 +3,7 @@
 //! * `coupled`: what a layout is made of;
 //! * `bound`: the layout itself;
 //! * `bind`, `loads`, `named_load`, `frames`: how it is made;
+//! * `inside`, `interior`: what is read inside a step;
 //! * [`marker`]: the motion of a marker in its subsystem's outputs;
 //! * [`exchanged`]: outputs that are inputs of other subsystems;
 //! * [`input`]: driven inputs and how they follow from the coupling variables.
@@ -13,6 +14,8 @@ mod coupled;
 pub mod exchanged;
 mod frames;
 pub mod input;
+mod inside;
+mod interior;
 mod loads;
 pub mod marker;
 mod named_load;
@@ -21,4 +24,5 @@ pub use bound::{BoundJoint, Frame, Layout, Row, column_name};
 pub use coupled::{Coupled, Lack, LoadForm, MarkedConnection, MarkedJoint, MarkerLacks};
 pub use exchanged::{Exchanged, What};
 pub use input::{DrivenInput, Over, Source};
+pub use inside::Inside;
 pub use marker::BoundEnd;

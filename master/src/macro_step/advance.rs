@@ -22,6 +22,7 @@ pub fn advance(
     };
     match following {
         Some(following) => {
+            own.method.expect_rate(iteration.rate());
             own.predict(following);
             let with_columns = own.decide_columns(&mut iteration, following);
             own.request_prediction(following, with_columns)?;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
-use crate::accuracy::{Attempts, Change, PositionErrors};
+use crate::accuracy::{Attempts, Change, Difference, PositionErrors, Tolerance};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::Corrected;
@@ -27,13 +27,15 @@ pub struct Corrector {
     /// The conditions at the end of the step.
     pub end: Jacobian,
     /// What the linearised conditions ask for.
-    solution: Vec<f64>,
+    pub(super) solution: Vec<f64>,
     /// What is changed: the solution, and what it is foreseen to miss.
     pub(super) change: Vec<f64>,
     /// What another correction would change.
     remaining: Vec<f64>,
     /// Largest change of the unknowns of each variable.
     sizes: Vec<f64>,
+    /// Solutions with polynomials of one degree and of two degrees less.
+    pub(super) nested: [Vec<f64>; 2],
     /// Errors of the unknowns of multipliers as positions feel them.
     pub(super) errors: Vec<f64>,
     pub(super) position_errors: PositionErrors,
@@ -65,6 +67,7 @@ impl Corrector {
             change: vec![0.0; unknowns],
             remaining: vec![0.0; unknowns],
             sizes: vec![0.0; size],
+            nested: [vec![0.0; unknowns], vec![0.0; unknowns]],
             errors: vec![0.0; unknowns],
             position_errors: PositionErrors::new(size),
             check: LinearisationCheck::new(size),
@@ -228,19 +231,36 @@ impl Correcting<'_> {
     }
 
     /// The first correction is small enough: it counts among those that later ones are compared with.
-    pub fn begin(&mut self, iteration: &mut IterationControl) {
-        let own = &mut *self.own;
-        own.norm.note(&own.sizes);
-        iteration.begin(
-            own.norm.of(&own.sizes, self.method.ends()),
-            own.continues,
-            !self.method.has_past(),
-        );
+    pub fn begin(
+        &mut self,
+        iteration: &mut IterationControl,
+        step: MacroStep,
+        tolerance: Option<&Tolerance>,
+    ) {
+        self.own.norm.note(&self.own.sizes);
+        let change = self.size_of_change(step, tolerance);
+        iteration.begin(change, self.own.continues, !self.method.has_past());
     }
 
-    /// Size of the last correction.
-    pub fn size_of_change(&self) -> Change {
-        self.own.norm.of(&self.own.sizes, self.method.ends())
+    /// Size of the last correction; what follows from it is compared with the `tolerance` by methods whose error is known so precisely.
+    pub fn size_of_change(&mut self, step: MacroStep, tolerance: Option<&Tolerance>) -> Change {
+        let own = &mut *self.own;
+        let change = own.norm.of(&own.sizes, self.method.ends());
+        let tolerance = tolerance.filter(|_| self.method.tells_error());
+        let of_allowed = tolerance.map(|tolerance| {
+            let difference = Difference {
+                layout: self.layout,
+                step: step.length,
+                system: &own.end.system,
+                columns: own.end.columns.all(),
+                unknowns: &own.change,
+            };
+            own.position_errors.largest(difference, tolerance).scaled
+        });
+        Change {
+            of_allowed,
+            ..change
+        }
     }
 
     /// The step is taken.
@@ -290,7 +310,9 @@ impl Correcting<'_> {
         let system = &mut end.system;
         let now = self.workers.now();
         let outputs = |subsystem: usize| now.of(subsystem);
-        system.assemble_residuals(self.layout, outputs, self.method.corrected_point());
+        let point = self.method.corrected_point();
+        system.assemble_residuals(self.layout, outputs, point);
+        system.assemble_inside(self.layout, &now, None, point);
         self.method.remaining(system, remaining);
         let unknowns = system.unknowns();
         if with_new_columns {

@@ -2,7 +2,7 @@
 
 use super::correcting::Correcting;
 use super::jacobian::Jacobian;
-use crate::accuracy::{Correction, Estimate, Suspect, Tolerance};
+use crate::accuracy::{Correction, Difference, Estimate, Suspect, Tolerance};
 use crate::layout::Layout;
 use crate::methods::LoadErrors;
 use crate::policies::degree::{AutomaticDegrees, Group, Prospect, Prospects, Purpose};
@@ -24,6 +24,9 @@ impl Correcting<'_> {
         tolerance: &Tolerance,
         degrees: [Option<usize>; 2],
     ) -> Estimate {
+        if let Some(estimate) = self.nested_error(step, tolerance, degrees[0]) {
+            return estimate;
+        }
         let mut estimate = Estimate::NONE;
         let loads = self.add_errors_of_multipliers(step, tolerance, degrees[0], &mut estimate);
         let now = self.workers.now();
@@ -34,6 +37,80 @@ impl Correcting<'_> {
             .add_openings(correction, tolerance, &mut estimate);
         self.add_errors_of_exchanged(tolerance, degrees[1], &mut estimate);
         estimate
+    }
+
+    /// The error from the solutions with polynomials of fewer degrees, for methods that have them.
+    fn nested_error(
+        &mut self,
+        step: MacroStep,
+        tolerance: &Tolerance,
+        degree: Option<usize>,
+    ) -> Option<Estimate> {
+        let own_degree = self.method.degree();
+        let [of_lower, mut estimate] = self.nested_differences(step, tolerance)?;
+        let degree = degree.unwrap_or(own_degree);
+        estimate.scaled = nested(
+            of_lower.scaled,
+            estimate.scaled,
+            degree as i32 - own_degree as i32,
+        );
+        estimate.order = 2 * degree + 2;
+        estimate.is_of_step_alone = true;
+        let rows = self.layout.rows.len();
+        let unknowns = self.own.end.system.unknowns();
+        let multipliers = (0..rows).flat_map(|row| unknowns.of(row));
+        let changes = multipliers.map(|unknown| self.own.change[unknown].abs());
+        estimate.change = changes.fold(0.0, f64::max);
+        self.add_errors_of_exchanged(tolerance, None, &mut estimate);
+        Some(estimate)
+    }
+
+    /// By how much the solution with polynomials of the present degree differs from that of one degree less, which is the error of the latter,
+    /// and before that by how much these differ from those of two degrees less.
+    fn nested_differences(
+        &mut self,
+        step: MacroStep,
+        tolerance: &Tolerance,
+    ) -> Option<[Estimate; 2]> {
+        let own = &mut *self.own;
+        let start = self.point.as_ref().map(|point| point.system());
+        let system = &own.end.system;
+        let [lower, lowest] = &mut own.nested;
+        let found = self.method.nested(system, start, 1, lower)
+            && self.method.nested(system, start, 2, lowest);
+        if !found {
+            return None;
+        }
+        let mut differ = |higher: &[f64], lower: &[f64]| {
+            let differences = own.errors.iter_mut().zip(higher.iter().zip(lower));
+            differences.for_each(|(error, (higher, lower))| *error = higher - lower);
+            let difference = Difference {
+                layout: self.layout,
+                step: step.length,
+                system,
+                columns: own.end.columns.all(),
+                unknowns: &own.errors,
+            };
+            own.position_errors.largest(difference, tolerance)
+        };
+        Some([differ(lower, lowest), differ(&own.solution, lower)])
+    }
+
+    /// What the degrees around the present one would have made of the step.
+    fn nested_prospects(&mut self, step: MacroStep, tolerance: &Tolerance) -> Option<Prospects> {
+        let [of_lower, present] = self.nested_differences(step, tolerance)?;
+        let degree = self.method.degree();
+        let of = |more: i32| Prospect {
+            scaled: nested(of_lower.scaled, present.scaled, more),
+            order: (2 * degree + 2).saturating_add_signed(2 * more as isize),
+        };
+        Some(Prospects {
+            are_anew: true,
+            smooth_points: usize::MAX,
+            lower: (degree > self.method.lowest_degree()).then(|| of(-1)),
+            present: Some(of(0)),
+            higher: self.method.may_rise().then(|| of(1)),
+        })
     }
 
     fn add_errors_of_multipliers(
@@ -115,6 +192,9 @@ impl Correcting<'_> {
 
     /// What the polynomials of the degrees around that of a group would have made of the step.
     fn prospects(&mut self, step: MacroStep, tolerance: &Tolerance, group: &Group) -> Prospects {
+        if let Some(prospects) = self.nested_prospects(step, tolerance) {
+            return prospects;
+        }
         let smooth_points = self.method.smooth_points(group.first());
         let known = |degree: usize| degree < smooth_points;
         let mut error = |degree: usize| {
@@ -133,6 +213,7 @@ impl Correcting<'_> {
         let degree = group.degree();
         let mut of = |degree: Option<usize>| degree.filter(|degree| known(*degree)).map(&mut error);
         Prospects {
+            are_anew: false,
             smooth_points,
             lower: of(degree.checked_sub(1)),
             present: of(Some(degree)),
@@ -175,5 +256,16 @@ fn correction<'a>(
         errors,
         share: loads.shares.position,
         order: loads.shares.order + 2,
+    }
+}
+
+/// The error of a solution, with polynomials of so many degrees `more`, from the differences that the last two degrees make: the last one,
+/// `d_p`, is the error with one degree less, and every further degree changes it by the same factor.
+fn nested(before: f64, last: f64, more: i32) -> f64 {
+    let falls = (last / before).min(1.0);
+    if falls.is_finite() {
+        last * falls.powi(more + 1)
+    } else {
+        last
     }
 }

@@ -21,8 +21,10 @@ impl Jacobian {
     pub fn linearise(&mut self, layout: &Layout, ahead: &dyn LookAhead, point: Point<'_>) {
         self.columns.difference(layout, ahead);
         let outputs = |subsystem: usize| ahead.of(subsystem);
+        let columns = self.columns.all();
+        self.system.assemble(layout, outputs, columns, point);
         self.system
-            .assemble(layout, outputs, self.columns.all(), point);
+            .assemble_inside(layout, ahead, Some(columns), point);
     }
 }
 

@@ -28,6 +28,9 @@ pub(crate) trait Definition: Parameters + Sized {
     /// Whether it corrects its prediction: then it has the keys of iterations, kept columns and variable steps.
     const CORRECTS: bool = false;
 
+    /// Lowest degree of its polynomials.
+    const LOWEST_DEGREE: usize = 0;
+
     /// Highest degree of its polynomials.
     const HIGHEST_DEGREE: usize = MAX_DEGREE;
 
@@ -59,6 +62,16 @@ pub trait Parameters {
         None
     }
 
+    /// Instants inside a step, as shares of it, at which it looks at positions; `has_signals` if signals are connected.
+    fn instants(&self, _has_signals: bool) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Whether it cannot do without these instants.
+    fn needs_instants(&self) -> bool {
+        false
+    }
+
     /// Whether a multiplier of degree 0 at `T_{N+1}` is its mean over the step before.
     fn has_step_means(&self) -> bool {
         false
@@ -80,8 +93,10 @@ pub trait Parameters {
 /// Degrees of curves that a method has of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct OwnCurves {
-    /// Of multipliers.
+    /// Of multipliers; the highest one where it follows the estimates.
     pub multipliers: usize,
+    /// Whether that of multipliers follows the estimates.
+    pub follow: bool,
     /// Of exchanged motion.
     pub motion: usize,
     /// The key that determines them.

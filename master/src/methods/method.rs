@@ -115,6 +115,41 @@ pub trait Corrected: CouplingMethod {
         solution: &mut [f64],
     ) -> Result<(), SingularRow>;
 
+    /// Solves the conditions of the first correction for the change of the unknowns with polynomials of so many `fewer` degrees, whose
+    /// difference from the solution tells the error. Gives whether there is such a solution.
+    fn nested(
+        &mut self,
+        _end: &System,
+        _start: Option<&System>,
+        _fewer: usize,
+        _change: &mut [f64],
+    ) -> bool {
+        false
+    }
+
+    /// The next corrections are expected to miss this share of what they change; not known at first.
+    fn expect_rate(&mut self, _rate: Option<f64>) {}
+
+    /// Whether solutions with polynomials of fewer degrees tell the error of a step.
+    fn tells_error(&self) -> bool {
+        false
+    }
+
+    /// Degree of the multipliers' polynomials over the step, for methods with [`Corrected::nested`].
+    fn degree(&self) -> usize {
+        0
+    }
+
+    /// The lowest degree that it may have.
+    fn lowest_degree(&self) -> usize {
+        0
+    }
+
+    /// Whether the solution is such that a higher degree promises anything.
+    fn may_rise(&self) -> bool {
+        false
+    }
+
     /// Changes the unknowns of the curves. `solution` is what the conditions at the `end` asked for.
     fn correct(&mut self, change: &[f64], solution: &[f64], end: &System);
 

@@ -12,6 +12,8 @@ pub(crate) struct Entry<M: 'static> {
     pub keys: &'static [&'static str],
     /// See [`Definition::CORRECTS`].
     pub corrects: bool,
+    /// See [`Definition::LOWEST_DEGREE`].
+    pub lowest_degree: usize,
     /// See [`Definition::HIGHEST_DEGREE`].
     pub highest_degree: usize,
     /// See [`Definition::MAY_CHANGE_DEGREE`].
@@ -31,6 +33,7 @@ impl<M> Entry<M> {
             name: T::NAME,
             keys: T::KEYS,
             corrects: T::CORRECTS,
+            lowest_degree: T::LOWEST_DEGREE,
             highest_degree: T::HIGHEST_DEGREE,
             may_change_degree: T::MAY_CHANGE_DEGREE,
             exchanged_degree: T::EXCHANGED_DEGREE,

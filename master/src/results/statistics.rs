@@ -2,12 +2,12 @@
 
 use std::time::Duration;
 
+use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1;
 use serde::{Deserialize, Serialize};
 
 use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
 use crate::layout::Layout;
-use crate::signal::MAX_DEGREE;
 use crate::time::MacroStep;
 
 /// What a run cost and how well its joints held.
@@ -121,13 +121,16 @@ impl StepStatistics {
     }
 }
 
+/// Number of degrees that polynomials of coupling variables may have, from 0 on.
+const DEGREES: usize = MAX_NODES - 2;
+
 /// Number of macro steps by the degree of the polynomials, from 0 on, with which they were corrected.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DegreeStatistics {
     /// Those of multipliers, if they follow the estimates.
-    pub multipliers: Option<[u64; MAX_DEGREE + 1]>,
+    pub multipliers: Option<[u64; DEGREES]>,
     /// Those of exchanged variables, if they follow the estimates.
-    pub exchanged: Option<[u64; MAX_DEGREE + 1]>,
+    pub exchanged: Option<[u64; DEGREES]>,
 }
 
 impl DegreeStatistics {

@@ -129,7 +129,11 @@ impl Written {
             return;
         };
         if let Some(Value::Table(table)) = root.get_mut("coupling").map(|e| &mut e.node.value) {
-            table.retain(|key, _| !coupling::belongs_to_others(key, method));
+            let before = match table.get("method").map(|entry| &entry.node.value) {
+                Some(Value::Text(before)) => Some(before.clone()),
+                _ => None,
+            };
+            table.retain(|key, _| !coupling::is_set_aside(key, before.as_deref(), method));
         }
     }
 }

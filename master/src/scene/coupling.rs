@@ -90,8 +90,20 @@ impl Entry<Method> {
     }
 }
 
+/// The key of the degree.
+const DEGREE: &str = "degree";
+
+/// True for a parameter that means nothing where one method takes the place of another: of those that both have the degree, if they count
+/// it from different ones.
+pub(super) fn is_set_aside(key: &str, before: Option<&str>, method: &str) -> bool {
+    let of = |method: &str| Method::ALL.iter().find(|entry| entry.name == method);
+    let lowest = |method: &str| of(method).map(|entry| entry.lowest_degree);
+    let counts_otherwise = || before.is_some_and(|before| lowest(before) != lowest(method));
+    belongs_to_others(key, method) || key == DEGREE && counts_otherwise()
+}
+
 /// True for a parameter that some methods have, but not the one of this name.
-pub(super) fn belongs_to_others(key: &str, method: &str) -> bool {
+fn belongs_to_others(key: &str, method: &str) -> bool {
     let chosen = Method::ALL.iter().find(|entry| entry.name == method);
     chosen.is_some_and(|entry| entry.parameters().all(|own| own != key)) && !owners(key).is_empty()
 }
@@ -125,8 +137,11 @@ pub(super) fn read(
     let range = steps.as_ref().map(MacroSteps::range);
     let method = kind.and_then(|kind| (kind.read)(section, range, problems));
     let own_curves = method.and_then(|method| method.parameters().own_curves());
-    let degree = match (section.get("degree"), kind, own_curves) {
+    let degree = match (section.get(DEGREE), kind, own_curves) {
+        (_, _, Some(own)) if own.follow => Some(Degree::Automatic),
         (_, _, Some(own)) => Some(Degree::Fixed(own.multipliers)),
+        // A method that counts it otherwise has read it.
+        (_, Some(kind), None) if kind.lowest_degree > 0 => None,
         (Some(field), ..) => degree::read(&field, kind.map(Entry::degrees), problems),
         (None, kind, _) => kind.map(Entry::default_degree),
     };

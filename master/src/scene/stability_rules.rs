@@ -75,6 +75,9 @@ fn shortest_step(coupling: &Coupling) -> f64 {
 pub(crate) fn highest_stable_degree(method: Method, macro_step: f64) -> usize {
     let parameters = method.parameters();
     let is_unstable = |degree: &usize| parameters.instability(Some(*degree), macro_step).is_some();
-    let unstable = (1..=MAX_DEGREE).find(is_unstable);
-    unstable.map_or(MAX_DEGREE, |degree| degree - 1)
+    let highest = parameters
+        .own_curves()
+        .map_or(MAX_DEGREE, |own| own.multipliers);
+    let unstable = (1..=highest).find(is_unstable);
+    unstable.map_or(highest, |degree| degree - 1)
 }

@@ -61,8 +61,10 @@ pub(super) fn check_degrees(
     layout: &Layout,
 ) -> Result<StepDegrees, RunError> {
     let [multipliers, exchanged] = groups(&scene.coupling);
+    let own_curves = scene.coupling.method.parameters().own_curves();
+    let highest_of_method = own_curves.map_or(MAX_DEGREE, |own| own.multipliers);
     let mut limits = [multipliers, exchanged].map(|group| match group.degree {
-        Degree::Automatic => Some(MAX_DEGREE),
+        Degree::Automatic => Some(highest_of_method),
         Degree::Fixed(_) => None,
     });
     for input in &layout.inputs {

@@ -36,9 +36,9 @@ pub(super) fn step_size_of(
     let coupling = &scene.coupling;
     let (rule, control) = match (coupling.step_control, &options.step_lengths) {
         (Some(control), None) => (Rule::Free, control),
-        _ if !coupling.has_automatic_degree() => return None,
         (Some(control), Some(_)) => (Rule::Given, control),
-        (None, _) => (Rule::Equal, ANY_ERROR),
+        (None, _) if coupling.has_automatic_degree() => (Rule::Equal, ANY_ERROR),
+        (None, _) => return None,
     };
     let subsystems = workers.subsystems.iter();
     let tolerances = [control.tolerance, control.absolute_tolerance];

@@ -6,6 +6,11 @@ use crate::signal::SharePolynomial;
 pub trait Outputs {
     /// Those of one subsystem.
     fn of(&self, subsystem: usize) -> &[f64];
+
+    /// What it told at the instants inside the step that led there, instant by instant.
+    fn inside(&self, _subsystem: usize) -> &[f64] {
+        &[]
+    }
 }
 
 /// The outputs at the end of a look-ahead, and its responses to perturbed inputs.

@@ -18,6 +18,8 @@ pub struct System {
     pub(super) level: Level,
     pub(super) rows: usize,
     pub(super) unknowns: Unknowns,
+    /// Parts of all unknowns in the conditions of exchanged variables, by level.
+    pub(super) units: Vec<[f64; 3]>,
     pub(super) variables: Vec<Vec<usize>>,
     pub(super) pattern: Pattern,
     pub(super) residuals: [Vec<f64>; 3],
@@ -28,11 +30,47 @@ pub struct System {
     pub(super) motions: Vec<Motion>,
     pub(super) gradients: Vec<f64>,
     pub(super) gradient_starts: Vec<usize>,
+    pub(super) moments: Option<Box<Moments>>,
+}
+
+/// The moments `integral of g(s) p_i(s) ds` of every condition on position level, `i = 0, 1, ..`, and their derivatives with respect to
+/// the unknowns, as sums over the instants at which the workers tell their positions.
+pub struct Moments {
+    pub(super) weights: Weights,
+    /// The conditions at one instant.
+    pub(super) at_instant: System,
+    /// For each instant the parts of all unknowns in the conditions of exchanged variables.
+    pub(super) units: Vec<Vec<f64>>,
+    /// Whether a condition is that of a connected signal.
+    pub(super) is_signal: Vec<bool>,
+    /// The coupling outputs at one instant, subsystem by subsystem.
+    pub(super) outputs: Vec<Vec<f64>>,
+    pub(super) columns: Vec<Column>,
+    pub(super) residuals: Vec<Vec<f64>>,
+    pub(super) jacobians: Vec<Vec<f64>>,
+}
+
+/// How the values at the instants make a moment: for each moment one weight for each instant.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Weights {
+    /// Of conditions of joints and of exchanged motion.
+    pub of_motion: Vec<Vec<f64>>,
+    /// Of connected signals.
+    pub of_signals: Vec<Vec<f64>>,
 }
 
 impl System {
     /// The system of `layout` for these unknowns.
     pub fn new(layout: &Layout, unknowns: Unknowns) -> Self {
+        Self::up_to(layout.level, layout, unknowns)
+    }
+
+    /// The same on position level alone.
+    pub(super) fn at_positions(layout: &Layout, unknowns: Unknowns) -> Self {
+        Self::up_to(Level::Position, layout, unknowns)
+    }
+
+    fn up_to(level: Level, layout: &Layout, unknowns: Unknowns) -> Self {
         let size = layout.variables();
         let variables = layout.inputs.iter().map(|input| {
             let mut variables = Vec::new();
@@ -45,8 +83,10 @@ impl System {
         });
         let entries = pattern.entries();
         Self {
-            level: layout.level,
+            level,
             rows: layout.rows.len(),
+            units: unknowns.units().to_vec(),
+            moments: None,
             unknowns,
             variables,
             residuals: std::array::from_fn(|_| vec![0.0; size]),
@@ -64,6 +104,13 @@ impl System {
     /// The unknowns.
     pub fn unknowns(&self) -> &Unknowns {
         &self.unknowns
+    }
+
+    /// Gives the unknowns other parts in the values of exchanged variables.
+    pub(super) fn set_units(&mut self, units: &[f64]) {
+        for (own, unit) in self.units.iter_mut().zip(units) {
+            *own = [*unit, 0.0, 0.0];
+        }
     }
 
     /// Highest level.
@@ -97,6 +144,17 @@ impl System {
     ) {
         self.assemble_residuals(layout, outputs, point);
         self.assemble_jacobians(layout, outputs, columns, point);
+    }
+
+    /// The conditions inside the step, for systems that have them.
+    pub fn moments(&self) -> Option<&Moments> {
+        self.moments.as_deref()
+    }
+
+    /// The system with conditions inside the step as well.
+    pub fn with_moments(mut self, moments: Moments) -> Self {
+        self.moments = Some(Box::new(moments));
+        self
     }
 
     /// Writes `G change` of one level to `shift`.

@@ -4,6 +4,7 @@ use nalgebra::Vector3;
 
 use super::point::Point;
 use super::unknowns::Unknowns;
+use crate::joint::Level;
 use crate::layout::Exchanged;
 use crate::layout::exchanged::Rates;
 use crate::layout::marker::vector;
@@ -16,25 +17,20 @@ impl Exchanged {
         self.rates.as_ref().filter(|_| has_rate)
     }
 
-    /// Derivatives of the conditions on every level with respect to each unknown of a variable.
-    pub(super) fn units(&self, unknowns: &Unknowns) -> &'static [[f64; 3]] {
-        match self.rates_among(unknowns) {
-            None => &[[1.0; 3]],
-            Some(_) => &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-        }
-    }
-
     /// The changes of the variables, `H` times their rates and `H^2` times their second derivatives that go with a change
-    /// `column` of the outputs; where rates are no unknowns the change of the variables on every level.
+    /// `column` of the outputs; where rates are no unknowns, or on position level alone, the change of the variables on every level.
     pub(super) fn changes(
         &self,
-        unknowns: &Unknowns,
+        (unknowns, level): (&Unknowns, Level),
         outputs: &[f64],
         point: Point<'_>,
         column: &[f64],
     ) -> [Vector3<f64>; 3] {
         let change = self.change(outputs, point.attitudes, point.w, column);
-        let Some(rates) = self.rates_among(unknowns) else {
+        let Some(rates) = self
+            .rates_among(unknowns)
+            .filter(|_| level > Level::Position)
+        else {
             return [change; 3];
         };
         let step = point.step;

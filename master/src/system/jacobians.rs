@@ -76,9 +76,9 @@ impl System {
     ) {
         for exchanged in &layout.exchanged {
             let own = outputs(exchanged.subsystem);
-            for _ in 0..exchanged.size() {
-                for unit in exchanged.units(&self.unknowns) {
-                    self.add(slot, *unit);
+            for variable in exchanged.first..exchanged.first + exchanged.size() {
+                for unknown in self.unknowns.of(variable) {
+                    self.add(slot, self.units[unknown]);
                     slot += 1;
                 }
             }
@@ -88,7 +88,8 @@ impl System {
                     if derivatives.is_empty() {
                         continue;
                     }
-                    let changes = exchanged.changes(&self.unknowns, own, point, derivatives);
+                    let changes =
+                        exchanged.changes((&self.unknowns, self.level), own, point, derivatives);
                     let raised = Raised::new(layout, input, raised, column);
                     for component in 0..exchanged.size() {
                         let responses = changes.map(|change| -change[component]);

@@ -2,6 +2,7 @@
 //!
 //! * `equations`: both on every level, assembled from the joints (`residuals`, `jacobians`), the exchanged variables (`exchanged`)
 //!   and the workers' columns (`column`), about a point (`point`);
+//! * `moments`: the conditions inside a step, weighted;
 //! * [`unknowns`]: what is solved for of every coupling variable;
 //! * `entries`, [`pattern`]: which entries `G` has;
 //! * [`solve`]: the linear solver;
@@ -14,6 +15,7 @@ mod entries;
 mod equations;
 mod exchanged;
 mod jacobians;
+mod moments;
 mod motion;
 pub mod pattern;
 mod point;
@@ -23,6 +25,6 @@ pub mod unknowns;
 
 pub use answers::{Differentiation, LookAhead, Outputs, Perturbation};
 pub use column::{Column, Increment, Response};
-pub use equations::System;
+pub use equations::{Moments, System, Weights};
 pub use motion::motion_of;
 pub use point::Point;

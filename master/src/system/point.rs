@@ -9,6 +9,8 @@ pub struct Point<'a> {
     pub w: &'a [f64],
     /// Coupling variables at the shares of the step at which loads are raised, without the last one, which is the end.
     pub inner: &'a [Vec<f64>],
+    /// Coupling variables at the instants inside the step.
+    pub inside: &'a [Vec<f64>],
     /// `H w'` at the end of the step, looked at for variables that have it as an unknown.
     pub rates: &'a [f64],
     /// `H`
@@ -23,6 +25,7 @@ impl<'a> Point<'a> {
         Self {
             w,
             inner: &[],
+            inside: &[],
             rates: &[],
             step: 0.0,
             attitudes,

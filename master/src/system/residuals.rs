@@ -36,7 +36,8 @@ impl System {
                     self.residuals[level as usize][variable] = point.w[variable] - shown;
                 }
             }
-            if let Some(rates) = exchanged.rates_among(&self.unknowns) {
+            let rates = exchanged.rates_among(&self.unknowns);
+            if let Some(rates) = rates.filter(|_| self.level > Level::Position) {
                 let own = outputs(exchanged.subsystem);
                 let phi = exchanged.vector(&shown);
                 let speed = rates.speed(own, &phi);

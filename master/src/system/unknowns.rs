@@ -17,6 +17,8 @@ pub struct Unknowns {
     shares: Vec<f64>,
     /// For each variable the values of its shapes at the shares, shape by shape.
     shapes: Vec<Vec<f64>>,
+    /// For each unknown its part in value, `H` times the rate and `H^2` times the second derivative of its variable at the end of the step.
+    units: Vec<[f64; 3]>,
 }
 
 /// A term of the derivative of a raised input: which entry of the input's gradient, times which factor, for which unknown.
@@ -33,12 +35,23 @@ pub struct Term {
 impl Unknowns {
     /// One unknown for each variable: its value at the end of the step.
     pub fn ends(layout: &Layout) -> Self {
-        Self::new(layout, vec![1.0], vec![vec![1.0]; layout.variables()])
+        let size = layout.variables();
+        Self::new(
+            layout,
+            vec![1.0],
+            vec![vec![1.0]; size],
+            vec![[1.0; 3]; size],
+        )
     }
 
     /// Unknowns by the values of their shapes at `shares` of the step; `shapes[v]` holds those of variable `v`, shape by
-    /// shape.
-    pub fn new(layout: &Layout, shares: Vec<f64>, shapes: Vec<Vec<f64>>) -> Self {
+    /// shape. `units` are the parts of all unknowns in the conditions `w - y = 0` of exchanged variables, by level.
+    pub fn new(
+        layout: &Layout,
+        shares: Vec<f64>,
+        shapes: Vec<Vec<f64>>,
+        units: Vec<[f64; 3]>,
+    ) -> Self {
         let numbers = shapes.iter().map(|shapes| shapes.len() / shares.len());
         let starts = sums(numbers);
         let mut unknowns = Self {
@@ -46,6 +59,7 @@ impl Unknowns {
             column_starts: Vec::new(),
             shares,
             shapes,
+            units,
         };
         let raised = layout.inputs.iter().map(|input| unknowns.raised(input));
         unknowns.column_starts = sums(raised);
@@ -65,6 +79,11 @@ impl Unknowns {
     /// The unknowns of one variable.
     pub fn of(&self, variable: usize) -> Range<usize> {
         self.starts[variable]..self.starts[variable + 1]
+    }
+
+    /// Parts of all unknowns in the conditions of exchanged variables, by level.
+    pub fn units(&self) -> &[[f64; 3]] {
+        &self.units
     }
 
     /// The variable of an unknown.

@@ -43,6 +43,7 @@ impl Workers {
         advance.t = step.start;
         advance.step = step.length;
         advance.signals.resize_with(inputs.len(), Default::default);
+        cut(&mut advance.instants, layout, step.length);
         advance.samples.clear();
         if let Some(samples) = &self.samples {
             advance.samples.extend_from_slice(samples.offsets());
@@ -80,6 +81,7 @@ impl Workers {
             request.t = look.t;
             request.step = look.length;
             request.signals.resize_with(inputs.len(), Default::default);
+            cut(&mut request.instants, layout, look.length);
             let steps = perturbed.len() - directions;
             request.perturbed.resize_with(steps, Default::default);
             request.directions.resize_with(directions, Default::default);
@@ -122,5 +124,13 @@ impl Workers {
                 Ahead::Now => subsystem.request.evaluate = None,
             }
         }
+    }
+}
+
+/// The instants at which a step of this length is cut; one of no length is not.
+fn cut(instants: &mut Vec<f64>, layout: &Layout, length: f64) {
+    instants.clear();
+    if length > 0.0 {
+        instants.extend(layout.inside.shares.iter().map(|share| share * length));
     }
 }

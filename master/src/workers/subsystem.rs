@@ -43,6 +43,8 @@ pub struct Subsystem {
     pub(crate) output_names: Vec<String>,
     /// Number of coupling outputs.
     pub(crate) coupling_outputs: usize,
+    /// Names of the outputs that are told inside a step.
+    interior_names: Vec<String>,
     /// Outputs at the present macro point, in the order of the names.
     pub(crate) outputs: Vec<f64>,
     /// Error tolerance of the solver, if it has one.
@@ -74,6 +76,7 @@ impl Subsystem {
             reply: v1::ExchangeReply::default(),
             output_names: Vec::new(),
             coupling_outputs: 0,
+            interior_names: Vec::new(),
             outputs: Vec::new(),
             tolerance: None,
             repeats_steps: false,
@@ -146,6 +149,7 @@ impl Subsystem {
         request.protocol = Some(PROTOCOL);
         self.coupling_outputs = request.coupling_outputs.len();
         self.output_names = [&request.coupling_outputs[..], &request.recorded_outputs].concat();
+        self.interior_names.clone_from(&request.interior_outputs);
         let reply = self.connection.contract().initialize(&request)?;
         self.tolerance = reply.tolerance;
         Ok(())
@@ -190,7 +194,7 @@ impl Subsystem {
             .evaluate(&request)
             .map_err(|error| self.failed(error, now))?;
         let values = reply.outputs.unwrap_or_default().values;
-        self.check("outputs", &values, names, now)?;
+        self.check(("outputs", names), &values, 0, now)?;
         Ok(values)
     }
 

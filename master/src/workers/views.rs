@@ -11,6 +11,10 @@ impl Outputs for Now<'_> {
     fn of(&self, subsystem: usize) -> &[f64] {
         self.0[subsystem].coupling_values()
     }
+
+    fn inside(&self, subsystem: usize) -> &[f64] {
+        self.0[subsystem].advanced_inside()
+    }
 }
 
 /// The answers to the last look-ahead.
@@ -26,6 +30,17 @@ impl Outputs for Looked<'_> {
         match self.ahead {
             Ahead::Step => subsystem.predicted(),
             Ahead::Now => subsystem.coupling_values(),
+        }
+    }
+
+    fn inside(&self, subsystem: usize) -> &[f64] {
+        let subsystem = &self.subsystems[subsystem];
+        match self.ahead {
+            Ahead::Step => subsystem
+                .predicted()
+                .get(subsystem.coupling_outputs..)
+                .unwrap_or_default(),
+            Ahead::Now => &[],
         }
     }
 }

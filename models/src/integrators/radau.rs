@@ -147,6 +147,11 @@ impl Radau {
         self.record.is_of(length, y)
     }
 
+    /// Whether the last [`Radau::integrate`] reached its end and was over this length.
+    pub fn has_recorded_over(&self, length: f64) -> bool {
+        self.record.is_over(length)
+    }
+
     /// Advances `y` by the steps of the last [`Radau::integrate`], without control. Under the same inputs the result
     /// is the same to the bit.
     ///

@@ -42,7 +42,7 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
         interval: Interval,
         state: &mut E::State,
     ) -> Result<(), StepFailure> {
-        if self.radau.has_recorded(interval.length, state.as_ref()) {
+        if self.radau.has_recorded_over(interval.length) {
             self.radau
                 .replay(ode, state.as_mut())
                 .map_err(|error| at(interval, error))

@@ -116,7 +116,7 @@ impl Solver {
         match self {
             Self::Adaptive { radau, .. } => {
                 let is_repeated =
-                    steps == Steps::Repeated && radau.has_recorded(interval.length, state);
+                    steps == Steps::Repeated && radau.has_recorded_over(interval.length);
                 let advanced = if is_repeated {
                     radau.replay(ode, state)
                 } else {

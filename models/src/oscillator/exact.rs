@@ -8,11 +8,15 @@ use super::propagator::Propagator;
 use crate::mechanics::equation::Driven;
 use crate::mechanics::run::Solver;
 
-/// The matrix exponential of the equation of motion, kept for the two step lengths used last: a run may end with
-/// a shorter step, and a load that sets in within a step acts over a part of it.
+/// Most step lengths whose matrix exponentials are kept: a step that is cut at instants has as many parts of lengths of their own.
+const MOST_KEPT: usize = 24;
+
+/// The matrix exponential of the equation of motion, kept for the step lengths used last: a run may end with
+/// a shorter step, steps are cut at instants, and a load that sets in within a step acts over a part of it.
 #[derive(Debug, Default)]
 pub struct Exact {
-    kept: [Option<Response>; 2],
+    kept: Vec<Response>,
+    /// The one that was made last.
     newest: usize,
     steps: u64,
 }
@@ -60,18 +64,19 @@ impl Response {
 
 impl Exact {
     fn response(&mut self, equation: &Equation, length: f64) -> Option<&Response> {
-        let is_kept = |kept: &Option<Response>| {
-            kept.as_ref()
-                .is_some_and(|response| response.length.to_bits() == length.to_bits())
-        };
-        match self.kept.iter().position(is_kept) {
-            Some(place) => self.newest = place,
-            None => {
-                self.newest = 1 - self.newest;
-                self.kept[self.newest] = Response::new(equation, length);
-            }
+        let is_kept = |kept: &Response| kept.length.to_bits() == length.to_bits();
+        if let Some(place) = self.kept.iter().position(is_kept) {
+            return self.kept.get(place);
         }
-        self.kept[self.newest].as_ref()
+        let response = Response::new(equation, length)?;
+        if self.kept.len() < MOST_KEPT {
+            self.newest = self.kept.len();
+            self.kept.push(response);
+        } else {
+            self.newest = (self.newest + 1) % MOST_KEPT;
+            self.kept[self.newest] = response;
+        }
+        self.kept.get(self.newest)
     }
 }
 

@@ -32,6 +32,15 @@ fn signal() -> impl Strategy<Value = v1::Signal> {
     })
 }
 
+/// None, in most cases inside the step where they are any, or anything.
+fn instants() -> impl Strategy<Value = Vec<f64>> {
+    prop_oneof![
+        Just(Vec::new()),
+        Just(vec![1e-4, 3e-4]),
+        proptest::collection::vec(numbers(), 1..3),
+    ]
+}
+
 fn signals() -> impl Strategy<Value = Vec<v1::Signal>> {
     proptest::collection::vec(signal(), 0..4)
 }
@@ -47,17 +56,18 @@ enum Call {
 }
 
 prop_compose! {
-    fn step()(sequence in 40u64..46, outputs in -1..3i32, t in numbers(), step in numbers(), signals in signals())
-        -> v1::StepRequest {
-        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs }
+    fn step()(sequence in 40u64..46, outputs in -1..3i32, t in numbers(), step in numbers(), signals in signals(),
+        instants in instants()) -> v1::StepRequest {
+        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs, instants }
     }
 }
 
 prop_compose! {
     fn look()(
         t in numbers(), step in numbers(), signals in signals(), perturbed in signals(), directions in signals(),
+        instants in instants(),
     ) -> v1::Predict {
-        v1::Predict { t, step, signals, perturbed, directions }
+        v1::Predict { t, step, signals, perturbed, directions, instants }
     }
 }
 
@@ -75,6 +85,7 @@ fn call() -> impl Strategy<Value = Call> {
             signals: look.signals,
             perturbed: look.perturbed,
             directions: look.directions,
+            instants: look.instants,
         })),
         (look(), proptest::collection::vec(name, 0..3)).prop_map(|(look, outputs)| {
             Call::Evaluate(v1::EvaluateRequest {
@@ -95,6 +106,7 @@ fn call() -> impl Strategy<Value = Call> {
                         step: step.step,
                         signals: step.signals,
                         samples,
+                        instants: step.instants,
                     }),
                     predict: optional(predicts, ahead),
                     go_back,

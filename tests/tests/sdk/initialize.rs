@@ -68,6 +68,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             exportable_snapshot: false,
             joint_loads: !without_joint_loads.contains(&model.name.as_str()),
             directional_derivatives: ["oscillator", "pi-controller"].contains(&model.name.as_str()),
+            interior_outputs: true,
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }

@@ -11,6 +11,7 @@ mod exchange;
 mod going_back;
 mod initialize;
 mod instances;
+mod instants;
 mod joint_load_mistakes;
 mod joint_loads;
 mod peer;

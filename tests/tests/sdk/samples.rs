@@ -118,6 +118,7 @@ fn a_sample_that_fails_fails_the_request(serve: Serve) {
                 step: 1.0,
                 signals: vec![through(0, &[(0.0, 10.0), (0.5, 0.0), (1.0, -10.0)])],
                 samples: samples.to_vec(),
+                ..v1::Advance::default()
             }),
             ..v1::ExchangeRequest::default()
         };

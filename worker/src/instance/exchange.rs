@@ -103,7 +103,7 @@ impl Instance {
         check_samples(advance)?;
         let advanced = reply.advanced.get_or_insert_default();
         self.motion.advance(
-            interval,
+            (interval, &advance.instants),
             &advance.signals,
             v1::OutputSet::All,
             &mut advanced.values,
@@ -128,6 +128,18 @@ impl Instance {
         let horizon = Horizon::of(look)?;
         let outputs = into.outputs.get_or_insert_default();
         self.motion.set_signals(&look.signals)?;
+        if let (Horizon::Step(interval), [_, ..]) = (horizon, &look.instants[..]) {
+            let step = (interval, &look.instants[..]);
+            let answers = (&mut outputs.values, into.perturbed);
+            self.motion
+                .look_ahead_cut(base, step, &look.perturbed, answers)?;
+            return self.motion.look_in_directions_cut(
+                base,
+                step,
+                &look.directions,
+                into.derivatives,
+            );
+        }
         self.motion
             .look_ahead(base, horizon, Sequence::Own, &mut outputs.values)?;
         self.motion

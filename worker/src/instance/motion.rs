@@ -1,5 +1,6 @@
 //! A subsystem on its way: steps, outputs, and the states that it can go back to.
 
+mod cut;
 mod look_ahead;
 mod meter;
 
@@ -40,6 +41,7 @@ pub(super) struct Motion {
     outputs: Vec<v1::Variable>,
     coupling_outputs: Vec<usize>,
     all_outputs: Vec<usize>,
+    interior_outputs: Vec<usize>,
     stands_at: StateNumber,
     newest: StateNumber,
     last_step: Option<(Interval, StateNumber)>,
@@ -50,6 +52,10 @@ pub(super) struct Motion {
     can_go_back: bool,
     integrations: u64,
     derivatives: u64,
+    /// States of a look-ahead and its perturbed ones at an instant inside the step.
+    under_way: Vec<Snapshot>,
+    /// Derivatives at an instant.
+    at_instant: Vec<v1::Outputs>,
 }
 
 /// Which state a step starts from.
@@ -74,6 +80,7 @@ impl Motion {
             &request.recorded_outputs,
             "recorded_outputs",
         )?);
+        let interior_outputs = find(outputs, &request.interior_outputs, "interior_outputs")?;
         let mut committed = Kept::default();
         subsystem.snapshot(&mut committed.snapshot);
         Ok(Self {
@@ -82,6 +89,7 @@ impl Motion {
             outputs: outputs.clone(),
             coupling_outputs,
             all_outputs,
+            interior_outputs,
             stands_at: committed.number,
             newest: committed.number,
             last_step: None,
@@ -91,6 +99,8 @@ impl Motion {
             can_go_back: false,
             integrations: 0,
             derivatives: 0,
+            under_way: Vec::new(),
+            at_instant: Vec::new(),
         })
     }
 
@@ -103,18 +113,22 @@ impl Motion {
         self.signals.set(signals)
     }
 
-    /// Steps from the committed state and reads outputs; [`Motion::commit`] makes the end the committed state.
+    /// Steps from the committed state, cut at `instants`, and reads outputs; [`Motion::commit`] makes the end the committed state.
     pub(super) fn advance(
         &mut self,
-        interval: Interval,
+        (interval, instants): (Interval, &[f64]),
         signals: &[v1::Signal],
         outputs: v1::OutputSet,
         values: &mut Vec<f64>,
     ) -> Result<(), Failure> {
         self.signals.set(signals)?;
         self.go_to(Base::Committed)?;
-        self.integrate(interval, Sequence::Own)?;
-        self.read(interval, outputs, values)?;
+        if instants.is_empty() {
+            self.integrate(interval, Sequence::Own)?;
+            self.read(interval, outputs, values)?;
+        } else {
+            self.step_cut((interval, instants), outputs, values)?;
+        }
         self.advanced.snapshot.clear();
         self.subsystem.snapshot(&mut self.advanced.snapshot);
         self.advanced.number = self.stands_at;
@@ -153,6 +167,13 @@ impl Motion {
     pub(super) fn stay(&mut self) {
         std::mem::swap(&mut self.committed, &mut self.previous);
         self.can_go_back = true;
+    }
+
+    fn wanted(&self, set: v1::OutputSet) -> &[usize] {
+        match set {
+            v1::OutputSet::Coupling => &self.coupling_outputs,
+            v1::OutputSet::All => &self.all_outputs,
+        }
     }
 
     /// Makes `kept` the committed state.

@@ -13,6 +13,8 @@ pub(crate) struct Signals {
     inputs: Inputs,
     /// Zero, except for the input that a direction names.
     direction: Inputs,
+    /// The inputs with the time counted from an instant inside the step on.
+    shifted: Inputs,
     directed: Option<usize>,
     values: Vec<f64>,
 }
@@ -72,6 +74,7 @@ impl Signals {
             is_given: vec![false; driven.len()],
             driven,
             inputs: Inputs::constant(&start),
+            shifted: Inputs::constant(&[]),
             direction: Inputs::constant(&vec![0.0; start.len()]),
             directed: None,
             values: start,
@@ -94,6 +97,12 @@ impl Signals {
 
     pub(super) fn inputs(&self) -> &Inputs {
         &self.inputs
+    }
+
+    /// The inputs as polynomials of the time since `start`, s after the start of the step.
+    pub(super) fn inputs_from(&mut self, start: f64) -> &Inputs {
+        self.shifted.shift(&self.inputs, start);
+        &self.shifted
     }
 
     /// Takes the signals of a request; inputs without one go back to their defaults.

@@ -96,7 +96,11 @@ impl<'a, C: Contract> Turn<'a, C> {
             outputs: OutputSet::All.into(),
             ..StepRequest::default()
         };
-        reply.advanced = self.step_from(start, step(advance.step))?;
+        let whole = StepRequest {
+            instants: advance.instants.clone(),
+            ..step(advance.step)
+        };
+        reply.advanced = self.step_from(start, whole)?;
         self.contacts = self.work.contacts;
         let reached = self.snapshot()?;
         self.place.reach(reached);
@@ -139,6 +143,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             step: predict.step,
             signals: predict.signals.clone(),
             outputs: OutputSet::Coupling.into(),
+            instants: predict.instants.clone(),
             ..StepRequest::default()
         };
         let mut ahead = Ahead {
@@ -157,6 +162,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             signals: predict.signals.clone(),
             perturbed: predict.perturbed.clone(),
             directions: predict.directions.clone(),
+            instants: predict.instants.clone(),
         })?;
         self.count(answer.work);
         ahead.perturbed = answer.outputs;

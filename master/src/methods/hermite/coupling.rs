@@ -1,5 +1,7 @@
 //! Hermite coupling in a macro step.
 
+use std::ops::Range;
+
 use serde::{Deserialize, Serialize};
 
 use crate::accuracy::{Attempts, CHORD_ORDER};
@@ -11,12 +13,15 @@ use crate::methods::saved::{Saved, Unreadable};
 use crate::signal::{Curves, Held, History};
 use crate::system::solve::{LinearSolver, SingularColumn};
 use crate::system::unknowns::Unknowns;
-use crate::system::{Outputs, Point, System};
+use crate::system::{Moments, Outputs, Point, System};
 
-use super::curves::{HermiteCurves, Past, unknowns_of};
+use super::curves::{HermiteCurves, Past};
+use super::moments::Rule;
+use super::reduced::Relaxed;
 use super::sample::Sample;
+use super::shapes::Shapes;
 use super::stack::Stack;
-use super::variant::Variant;
+use super::variant::{ENDS, Family, LEAST_DEGREE};
 
 /// Mean error of exchanged motion over the step, per difference between predicted and corrected end: the curve of degree 4 misses
 /// `s^3 (s - 1)^2`, whose mean is 1/60, times a term that falls faster than the difference does.
@@ -30,7 +35,9 @@ const NAME: &str = "hermite";
 
 /// State of Hermite coupling between two macro steps.
 pub struct HermiteCoupling {
-    variant: Variant,
+    family: Family,
+    has_limiter: bool,
+    has_signals: bool,
     curves: HermiteCurves,
     /// The corrected curves of the last step.
     before: HermiteCurves,
@@ -39,7 +46,15 @@ pub struct HermiteCoupling {
     held: Vec<f64>,
     stack: Stack,
     solver: LinearSolver,
+    /// For equations of fewer degrees.
+    nested_solver: LinearSolver,
     point_solver: Option<LinearSolver>,
+    /// Degree of the multipliers' polynomials over the present step.
+    degree: usize,
+    /// The same of the last step.
+    last_degree: usize,
+    /// The top conditions of the step that are relaxed.
+    relaxed: Vec<Relaxed>,
     sample: Sample,
     /// The same of the last step.
     settled: Sample,
@@ -52,34 +67,49 @@ pub struct State {
     past: Past,
     before: Past,
     multipliers: Vec<f64>,
+    degree: usize,
+    last_degree: usize,
 }
 
 impl HermiteCoupling {
     /// The method from the first macro point, with these coupling `outputs`, where `history` holds all variables.
     pub fn build(
-        variant: Variant,
+        (family, rule, has_limiter): (Family, &Rule, bool),
         history: History,
         layout: &Layout,
         outputs: &dyn Outputs,
     ) -> Built {
         let size = layout.variables();
-        let unknowns = unknowns_of(layout, variant);
-        let mut curves = HermiteCurves::new(layout, variant, unknowns.clone(), history);
+        let shapes = Shapes::new(family);
+        let unknowns = shapes.unknowns_of(layout);
+        let mut curves = HermiteCurves::new(layout, shapes.clone(), unknowns.clone(), history);
         start_motion(&mut curves, layout, outputs);
-        let point = variant
+        let point = family
+            .variant
             .starts_anew()
             .then(|| System::new(layout, Unknowns::ends(layout)));
-        let sample = Sample::new(&unknowns, size);
-        let settled = Sample::new(&unknowns, size);
-        let end = System::new(layout, unknowns);
-        let stack = Stack::new(layout, variant, &end, point.as_ref());
+        let sample = Sample::new(&unknowns, &rule.shares, size);
+        let settled = Sample::new(&unknowns, &rule.shares, size);
+        let mut end = System::new(layout, unknowns.clone());
+        if !rule.shares.is_empty() {
+            let at_instants = rule.shares.iter().map(|&share| shapes.at(layout, share));
+            let weights = rule.weights(family);
+            end = end.with_moments(Moments::new(layout, unknowns, weights, at_instants.collect()));
+        }
+        let stack = Stack::new(layout, family, &end, point.as_ref());
         let mut method = Self {
-            variant,
+            family,
+            has_limiter,
+            has_signals: layout.has_signals(),
             multipliers: vec![0.0; layout.rows.len()],
             before: curves.clone(),
             held: vec![0.0; size],
             curves,
             solver: LinearSolver::new(stack.pattern()),
+            nested_solver: LinearSolver::new(stack.pattern()),
+            degree: family.degree,
+            last_degree: family.degree,
+            relaxed: Vec::new(),
             point_solver: point
                 .as_ref()
                 .map(|system| LinearSolver::new(system.pattern())),
@@ -91,9 +121,32 @@ impl HermiteCoupling {
         method.read_starts();
         Built {
             method: Box::new(method),
-            end: Some((end, levels_of(variant, layout))),
+            end: Some((end, levels_of(family, layout))),
             point: point.map(|system| (system, &[Level::Acceleration][..])),
         }
+    }
+
+    /// Puts the equations of the step together for multipliers of this degree: conditions at its end and inside it, columns at its start, and
+    /// what is missed there.
+    fn assemble(&mut self, end: &System, [start, missed]: [Option<&System>; 2], degree: usize) {
+        let step = self.curves.length();
+        self.stack.assemble_jacobian(end, start, step);
+        self.stack.assemble_end(end, step);
+        if let Some(missed) = missed {
+            self.stack.assemble_start(missed);
+        }
+        self.stack.reduce(degree, &self.curves);
+    }
+
+    fn solve_stack(&mut self, end: &System, solution: &mut [f64]) -> Result<(), SingularRow> {
+        let (pattern, jacobian, change) = self.stack.equation();
+        let solved = self.solver.solve(pattern, jacobian, change);
+        solved.map_err(|SingularColumn(unknown)| SingularRow {
+            row: end.unknowns().variable(unknown),
+            level: self.family.variant.level(),
+        })?;
+        solution.copy_from_slice(change);
+        Ok(())
     }
 
     fn read_starts(&mut self) {
@@ -107,7 +160,7 @@ impl HermiteCoupling {
 
     /// The second derivatives of exchanged motion at the end of the step: linearised outputs.
     fn foresee_accelerations(&mut self, solution: &[f64], end: &System) {
-        if self.variant.level() < Level::Acceleration {
+        if self.family.variant.level() < Level::Acceleration {
             return;
         }
         let step = self.curves.length();
@@ -135,6 +188,7 @@ impl CouplingMethod for HermiteCoupling {
     }
 
     fn accept(&mut self) {
+        self.last_degree = self.degree;
         self.before.copy_from(&self.curves);
         self.settled.take(&self.before);
         self.curves.move_on(self.sample.ends(), &self.accelerations);
@@ -177,6 +231,8 @@ impl CouplingMethod for HermiteCoupling {
             past: self.curves.past(),
             before: self.before.past(),
             multipliers: self.multipliers.clone(),
+            degree: self.degree,
+            last_degree: self.last_degree,
         })
     }
 
@@ -187,11 +243,12 @@ impl CouplingMethod for HermiteCoupling {
         self.settled.take(&self.before);
         self.read_starts();
         self.multipliers = state.multipliers;
+        (self.degree, self.last_degree) = (state.degree, state.last_degree);
         Ok(())
     }
 
     fn held(&self) -> Option<Held<'_>> {
-        self.variant.starts_anew().then(|| Held {
+        self.family.variant.starts_anew().then(|| Held {
             values: &self.held,
             attitudes: self.curves.attitudes(),
         })
@@ -218,21 +275,77 @@ impl Corrected for HermiteCoupling {
         is_first: bool,
         solution: &mut [f64],
     ) -> Result<(), SingularRow> {
-        let step = self.curves.length();
-        self.stack.assemble_jacobian(end, start, step);
-        self.stack.assemble_end(end, step);
-        if let Some(start) = start.filter(|_| is_first) {
-            // The accelerations are linear in the multipliers: the first correction meets these conditions.
-            self.stack.assemble_start(start);
+        // The accelerations are linear in the multipliers: the first correction meets the conditions at the start.
+        let missed = start.filter(|_| is_first);
+        let degree = self.degree;
+        self.assemble(end, [start, missed], degree);
+        if !self.family.variant.starts_anew() {
+            self.stack
+                .find_relaxed(degree, &self.curves, None, &mut self.relaxed);
+        } else if is_first {
+            self.relaxed.clear();
         }
-        let (pattern, jacobian, change) = self.stack.equation();
-        let solved = self.solver.solve(pattern, jacobian, change);
-        solved.map_err(|SingularColumn(unknown)| SingularRow {
-            row: end.unknowns().variable(unknown),
-            level: self.variant.level(),
-        })?;
-        solution.copy_from_slice(change);
+        self.stack.relax(&self.relaxed, &self.curves);
+        self.solve_stack(end, solution)?;
+        if is_first && self.has_limiter && self.family.variant.starts_anew() {
+            let solved = Some(&*solution);
+            self.stack
+                .find_relaxed(degree, &self.curves, solved, &mut self.relaxed);
+            if !self.relaxed.is_empty() {
+                self.assemble(end, [start, missed], degree);
+                self.stack.relax(&self.relaxed, &self.curves);
+                self.solve_stack(end, solution)?;
+            }
+        }
         Ok(())
+    }
+
+    fn nested(
+        &mut self,
+        end: &System,
+        start: Option<&System>,
+        fewer: usize,
+        change: &mut [f64],
+    ) -> bool {
+        let Some(degree) = self.degree.checked_sub(fewer).filter(|_| self.tells_error()) else {
+            return false;
+        };
+        self.assemble(end, [start, start], degree);
+        let (pattern, jacobian, own) = self.stack.equation();
+        let solved = self.nested_solver.solve(pattern, jacobian, own);
+        change.copy_from_slice(own);
+        solved.is_ok()
+    }
+
+    fn expect_rate(&mut self, rate: Option<f64>) {
+        self.curves.expect_rate(rate);
+    }
+
+    /// Without moments the difference from the prediction tells the error.
+    fn tells_error(&self) -> bool {
+        self.family.degree > LEAST_DEGREE || self.family.moments_of_signals() > 0 && self.has_signals
+    }
+
+    fn degree(&self) -> usize {
+        self.degree
+    }
+
+    fn lowest_degree(&self) -> usize {
+        LEAST_DEGREE
+    }
+
+    fn may_rise(&self) -> bool {
+        self.relaxed.is_empty()
+    }
+
+    fn set_degree(&mut self, variables: Range<usize>, degree: usize) {
+        if variables.start == 0 {
+            self.degree = degree.clamp(LEAST_DEGREE, self.family.degree);
+        }
+    }
+
+    fn degree_of_last_step(&self, _variable: usize) -> usize {
+        self.last_degree
     }
 
     fn correct(&mut self, change: &[f64], solution: &[f64], end: &System) {
@@ -269,7 +382,12 @@ impl Corrected for HermiteCoupling {
         _degree: Option<usize>,
         attempts: &Attempts,
     ) -> (f64, usize) {
-        let change = change[unknowns.of(variable).start];
+        let unknowns = unknowns.of(variable);
+        let change = change[unknowns.start];
+        // The solutions with fewer degrees tell the errors of curves with moments.
+        if unknowns.len() > 2 || exchanged.rates.is_none() && unknowns.len() > 1 {
+            return (0.0, 2 * self.degree + 2);
+        }
         if exchanged.rates.is_some() {
             return (MOTION_SHARE * change, MOTION_ORDER);
         }
@@ -285,6 +403,8 @@ impl Corrected for HermiteCoupling {
 
     fn remaining(&mut self, end: &mut System, remaining: &mut [f64]) {
         self.stack.assemble_end(end, self.before.length());
+        self.stack.meet_reduced(self.last_degree, &self.before);
+        self.stack.relax_residual(&self.relaxed, &self.before);
         let rhs = self.stack.rhs();
         self.solver.solve_again(rhs);
         remaining.copy_from_slice(rhs);
@@ -297,10 +417,10 @@ impl Corrected for HermiteCoupling {
 }
 
 /// The levels of the outputs that the conditions at `T_{N+1}` and exchanged motion are made of.
-fn levels_of(variant: Variant, layout: &Layout) -> &'static [Level] {
+fn levels_of(family: Family, layout: &Layout) -> &'static [Level] {
     match layout.exchanged.iter().any(|one| one.rates.is_some()) {
-        true => variant.level().up_to(),
-        false => variant.ends(),
+        true => family.variant.level().up_to(),
+        false => &ENDS,
     }
 }
 

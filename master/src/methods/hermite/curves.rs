@@ -1,35 +1,28 @@
 //! The curves of all coupling variables on one macro step, without a past.
 
+use std::ops::Range;
+
 use linchpin_proto::v1::Signal;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use super::variant::Variant;
+use super::shapes::{Kind, Shapes, kinds_of};
+use super::variant::HIGHEST_DEGREE;
 use crate::layout::Layout;
 use crate::signal::attitude::{attitude, quaternions, rotation_of_change};
 use crate::signal::{Curve, Curves, ErrorShares, History, SharePolynomial, vector_at};
 use crate::system::unknowns::Unknowns;
-
-/// What a variable is, and so what its curve is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    /// A multiplier: the unknowns are values at the shares of the variant.
-    Multiplier,
-    /// Exchanged motion: the unknowns are value and `H` times the rate at the end.
-    Motion,
-    /// A connected signal: the unknown is the end value; past values make the rest.
-    Signal,
-}
 
 /// State of a variable at the present macro point: value, rate and second derivative.
 type Start = [f64; 3];
 
 /// The curves over a step of length `H` from the present macro point, and what they continue.
 ///
-/// * multiplier: the polynomial through its values at `0, 1/n, .., 1` of the step;
-/// * exchanged motion: `p + v tau + a tau^2/2` and the two polynomials that bring value and rate at the end to what they
-///   are, while they leave `p`, `v` and, of degree 4, `a` as they are;
-/// * connected signal: the Lagrange polynomial through its end value and past values.
+/// * multiplier: the polynomial through its values at `0, 1/p, .., 1` of the step;
+/// * exchanged motion: `p + v tau + a tau^2/2`, without `a` where it is not read, the two polynomials that bring value and rate at the end
+///   to what they are, and those that are 0 at both ends with the rates that are known there;
+/// * connected signal: the chord, and polynomials that are 0 at both ends; or the Lagrange polynomial through its end value and past
+///   values.
 #[derive(Debug, Clone)]
 pub struct HermiteCurves {
     length: f64,
@@ -39,11 +32,13 @@ pub struct HermiteCurves {
     values: Vec<f64>,
     curves: Vec<SharePolynomial>,
     starts: Vec<Start>,
-    /// Multipliers over the step before, and rates of the second derivatives of motion.
+    /// The curves over the step before, and rates of the second derivatives of motion.
     past: Vec<SharePolynomial>,
     jerks: Vec<f64>,
     past_length: f64,
     has_past: bool,
+    /// What share corrections are expected to miss.
+    rate: Option<f64>,
     history: History,
     rotations: Vec<usize>,
     attitudes: Vec<UnitQuaternion<f64>>,
@@ -59,91 +54,15 @@ pub struct Past {
     jerks: Vec<f64>,
     past_length: f64,
     has_past: bool,
+    rate: Option<f64>,
     history: History,
     #[serde(with = "quaternions")]
     attitudes: Vec<UnitQuaternion<f64>>,
 }
 
-/// The shapes of the unknowns and of what is known.
-#[derive(Debug, Clone, PartialEq)]
-struct Shapes {
-    /// Of a multiplier that is 1 at `T_N` and 0 at the unknown nodes; absent where the start value is an unknown.
-    held: Option<SharePolynomial>,
-    multiplier: Vec<SharePolynomial>,
-    motion: [SharePolynomial; 2],
-    has_acceleration: bool,
-    degrees: [usize; 2],
-}
-
-impl Shapes {
-    fn new(variant: Variant) -> Self {
-        let unknown = variant.shares();
-        let all: Vec<f64> = match variant.starts_anew() {
-            true => unknown.clone(),
-            false => [&[0.0], &unknown[..]].concat(),
-        };
-        let at = |node: f64| {
-            let roots = all.iter().copied().filter(|other| *other != node);
-            SharePolynomial::with_roots(roots, node)
-        };
-        let has_acceleration = variant.motion_degree() == 4;
-        let motion = match has_acceleration {
-            true => [[0.0, 0.0, 0.0, 4.0, -3.0], [0.0, 0.0, 0.0, -1.0, 1.0]],
-            false => [[0.0, 0.0, 3.0, -2.0, 0.0], [0.0, 0.0, -1.0, 1.0, 0.0]],
-        };
-        Self {
-            held: (!variant.starts_anew()).then(|| at(0.0)),
-            multiplier: unknown.iter().map(|&node| at(node)).collect(),
-            motion: motion.map(SharePolynomial::new),
-            has_acceleration,
-            degrees: [variant.degree(), variant.motion_degree()],
-        }
-    }
-
-    fn of(&self, kind: Kind) -> &[SharePolynomial] {
-        match kind {
-            Kind::Multiplier => &self.multiplier,
-            Kind::Motion => &self.motion,
-            Kind::Signal => &[],
-        }
-    }
-}
-
-/// The unknowns of a macro step of a variant.
-pub fn unknowns_of(layout: &Layout, variant: Variant) -> Unknowns {
-    let shapes = Shapes::new(variant);
-    let shares = variant.shares();
-    let at_shares = |shape: &SharePolynomial| -> Vec<f64> {
-        shares.iter().map(|&share| shape.value(share)).collect()
-    };
-    let of_kind = |kind: Kind| match kind {
-        // Only the end value of a signal is known to change; no load is made of signals.
-        Kind::Signal => vec![1.0; shares.len()],
-        kind => shapes.of(kind).iter().flat_map(at_shares).collect(),
-    };
-    let kinds = kinds_of(layout);
-    Unknowns::new(
-        layout,
-        shares.clone(),
-        kinds.into_iter().map(of_kind).collect(),
-    )
-}
-
-fn kinds_of(layout: &Layout) -> Vec<Kind> {
-    let mut kinds = vec![Kind::Multiplier; layout.rows.len()];
-    for exchanged in &layout.exchanged {
-        let kind = match exchanged.rates {
-            Some(_) => Kind::Motion,
-            None => Kind::Signal,
-        };
-        kinds.extend((0..exchanged.size()).map(|_| kind));
-    }
-    kinds
-}
-
 impl HermiteCurves {
     /// Curves that start from the values of `history`; motion gets its rates by [`HermiteCurves::set_rates`].
-    pub fn new(layout: &Layout, variant: Variant, unknowns: Unknowns, history: History) -> Self {
+    pub fn new(layout: &Layout, shapes: Shapes, unknowns: Unknowns, history: History) -> Self {
         let size = layout.variables();
         let starts = history.newest().iter().map(|&value| [value, 0.0, 0.0]);
         let rotations: Vec<usize> = layout.attitudes().map(|one| one.first).collect();
@@ -151,11 +70,11 @@ impl HermiteCurves {
         for &first in &rotations {
             starts[first..first + 3].fill([0.0; 3]);
         }
-        let constant = |start: &Start| SharePolynomial::new([start[0], 0.0, 0.0, 0.0, 0.0]);
+        let constant = |start: &Start| SharePolynomial::of(&start[..1]);
         Self {
             length: 0.0,
             kinds: kinds_of(layout),
-            shapes: Shapes::new(variant),
+            shapes,
             values: vec![0.0; unknowns.len()],
             unknowns,
             curves: vec![SharePolynomial::default(); size],
@@ -163,6 +82,7 @@ impl HermiteCurves {
             jerks: vec![0.0; size],
             past_length: 1.0,
             has_past: false,
+            rate: None,
             starts,
             rotations,
             attitudes: history.attitudes().to_vec(),
@@ -180,6 +100,7 @@ impl HermiteCurves {
         self.jerks.clone_from(&other.jerks);
         self.past_length = other.past_length;
         self.has_past = other.has_past;
+        self.rate = other.rate;
         self.history.copy_from(&other.history);
         self.attitudes.clone_from(&other.attitudes);
     }
@@ -194,6 +115,7 @@ impl HermiteCurves {
             jerks: self.jerks.clone(),
             past_length: self.past_length,
             has_past: self.has_past,
+            rate: self.rate,
             history: self.history.clone(),
             attitudes: self.attitudes.clone(),
         }
@@ -208,9 +130,40 @@ impl HermiteCurves {
         self.jerks = past.jerks;
         self.past_length = past.past_length;
         self.has_past = past.has_past;
+        self.rate = past.rate;
         self.history = past.history;
         self.attitudes = past.attitudes;
         self.shape_curves();
+    }
+
+    /// What the curves are made of.
+    pub fn shapes(&self) -> &Shapes {
+        &self.shapes
+    }
+
+    /// Number of variables.
+    pub fn variables(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// What a variable is.
+    pub fn kind(&self, variable: usize) -> Kind {
+        self.kinds[variable]
+    }
+
+    /// Numbers of the unknowns of a variable.
+    pub fn unknowns_of(&self, variable: usize) -> Range<usize> {
+        self.unknowns.of(variable)
+    }
+
+    /// Values of the unknowns of a variable.
+    pub fn values(&self, variable: usize) -> &[f64] {
+        &self.values[self.unknowns.of(variable)]
+    }
+
+    /// Value of a variable at the present macro point.
+    pub fn start(&self, variable: usize) -> f64 {
+        self.starts[variable][0]
     }
 
     /// Whether there was a step before.
@@ -222,7 +175,7 @@ impl HermiteCurves {
     pub fn load_error(&self) -> ErrorShares {
         match self.has_past {
             true => {
-                ErrorShares::of_continuation(self.shapes.degrees[0], self.past_length / self.length)
+                ErrorShares::of_continuation(self.shapes.family.degree, self.past_length / self.length)
             }
             false => ErrorShares::WITHOUT_PAST,
         }
@@ -245,30 +198,50 @@ impl HermiteCurves {
         self.starts[variable][2] = acceleration;
     }
 
-    /// Predicts the curves over a step of length `length`: multipliers go on as they did, motion by its jerk.
+    /// Corrections of the next steps are expected to miss this share of what they change.
+    pub fn expect_rate(&mut self, rate: Option<f64>) {
+        self.rate = rate;
+    }
+
+    /// Predicts the curves over a step of length `length`: multipliers and signals go on as they did, motion by its jerk.
     pub fn predict(&mut self, length: f64) {
         self.length = length;
+        let past_length = self.past_length;
+        let degree = continued_degree(length / past_length, self.rate);
         for variable in 0..self.kinds.len() {
-            let ahead = |share: f64| 1.0 + share * length / self.past_length;
+            let ahead = |share: f64| 1.0 + share * length / past_length;
             let [p, v, a] = self.starts[variable];
             let jerk = self.jerks[variable] * length.powi(3);
             let (speed, bend) = (v * length, a * length * length);
-            let unknowns = self.unknowns.of(variable);
-            let values = &mut self.values[unknowns];
-            match self.kinds[variable] {
+            let past = || continued(&self.past[variable], degree);
+            let kind = self.kinds[variable];
+            let values = &mut self.values[self.unknowns.of(variable)];
+            match kind {
                 Kind::Multiplier => {
+                    let past = past();
                     for (value, &share) in values.iter_mut().zip(self.unknowns.shares()) {
-                        *value = self.past[variable].value(ahead(share));
+                        *value = past.value(ahead(share));
                     }
                 }
                 Kind::Motion => {
+                    values.fill(0.0);
                     values[0] = p + speed + bend / 2.0 + jerk / 6.0;
                     values[1] = speed + bend + jerk / 2.0;
                 }
-                Kind::Signal => {
+                Kind::Signal if self.shapes.of(kind).is_empty() => {
                     values[0] = self
                         .history
                         .value(variable, Curve::Extrapolated, length, length);
+                }
+                Kind::Signal => {
+                    values.fill(0.0);
+                    let past = past();
+                    let [middle, end] = [0.5, 1.0].map(|share| past.value(ahead(share)));
+                    values[0] = end;
+                    // The first part inside is a parabola that is 1/4 in the middle.
+                    if let Some(bow) = values.get_mut(1) {
+                        *bow = 4.0 * (middle - (p + end) / 2.0);
+                    }
                 }
             }
         }
@@ -284,6 +257,7 @@ impl HermiteCurves {
     }
 
     fn shape_curves(&mut self) {
+        let has_acceleration = self.has_acceleration();
         for variable in 0..self.kinds.len() {
             let [p, v, a] = self.starts[variable];
             let (speed, bend) = (v * self.length, a * self.length * self.length);
@@ -294,26 +268,31 @@ impl HermiteCurves {
                     if let Some(held) = &self.shapes.held {
                         curve.add(p, held);
                     }
-                    for (value, shape) in values.iter().zip(&self.shapes.multiplier) {
+                    for (value, shape) in values.iter().zip(self.shapes.of(Kind::Multiplier)) {
                         curve.add(*value, shape);
                     }
                 }
                 Kind::Motion => {
-                    let bend = if self.shapes.has_acceleration {
-                        bend
-                    } else {
-                        0.0
-                    };
-                    curve = SharePolynomial::new([p, speed, bend / 2.0, 0.0, 0.0]);
+                    let bend = if has_acceleration { bend } else { 0.0 };
+                    curve = SharePolynomial::of(&[p, speed, bend / 2.0]);
                     let missing = [
                         values[0] - curve.value(1.0),
                         values[1] - curve.derivative(1.0),
                     ];
-                    for (missing, shape) in missing.iter().zip(&self.shapes.motion) {
-                        curve.add(*missing, shape);
+                    let inside = values[2..].iter().copied();
+                    let missing = missing.into_iter().chain(inside);
+                    for (missing, shape) in missing.zip(self.shapes.of(Kind::Motion)) {
+                        curve.add(missing, shape);
                     }
                 }
-                Kind::Signal => {}
+                Kind::Signal => {
+                    curve = SharePolynomial::of(&[p]);
+                    let missing = [values[0] - p].into_iter();
+                    let missing = missing.chain(values[1..].iter().copied());
+                    for (missing, shape) in missing.zip(self.shapes.of(Kind::Signal)) {
+                        curve.add(missing, shape);
+                    }
+                }
             }
             self.curves[variable] = curve;
         }
@@ -338,15 +317,16 @@ impl HermiteCurves {
     /// Moves on to the end of the step, where all variables have the values `ends` and motion the second derivatives
     /// `accelerations`; those of rotation vectors are angular accelerations.
     pub fn move_on(&mut self, ends: &[f64], accelerations: &[f64]) {
+        let has_acceleration = self.has_acceleration();
         for variable in 0..self.kinds.len() {
             if self.kinds[variable] == Kind::Motion {
                 let speed = self.values[self.unknowns.of(variable)][1] / self.length;
                 let [_, before_speed, before] = self.starts[variable];
-                let now = match self.shapes.has_acceleration {
+                let now = match has_acceleration {
                     true => accelerations[variable],
                     false => (speed - before_speed) / self.length,
                 };
-                self.jerks[variable] = match self.shapes.has_acceleration {
+                self.jerks[variable] = match has_acceleration {
                     true => (now - before) / self.length,
                     false => 0.0,
                 };
@@ -372,17 +352,23 @@ impl HermiteCurves {
         self.history.push(self.length, ends);
     }
 
-    /// Values of the multipliers at the present macro point.
+    fn has_acceleration(&self) -> bool {
+        self.shapes.family.known_at_start() > 2
+    }
+
+    /// Values of all variables at the present macro point.
     pub fn starts(&self) -> impl Iterator<Item = f64> {
         self.starts.iter().map(|start| start[0])
     }
 
     fn degree(&self, variable: usize) -> usize {
-        match self.kinds[variable] {
-            Kind::Multiplier => self.shapes.degrees[0],
-            Kind::Motion => self.shapes.degrees[1],
-            Kind::Signal => self.history.degree(variable).max(1),
-        }
+        let own = self.shapes.degree(self.kinds[variable]);
+        own.unwrap_or_else(|| self.history.degree(variable).max(1))
+    }
+
+    /// Whether a variable is a polynomial through past values.
+    fn is_through_past(&self, variable: usize) -> bool {
+        self.shapes.of(self.kinds[variable]).is_empty()
     }
 }
 
@@ -396,14 +382,11 @@ impl Curves for HermiteCurves {
     }
 
     fn value(&self, variable: usize, tau: f64) -> f64 {
-        match self.kinds[variable] {
-            Kind::Signal => {
-                let end = self.values[self.unknowns.of(variable).start];
-                self.history
-                    .value_through(variable, Some(end), self.length, tau)
-            }
-            Kind::Multiplier | Kind::Motion => self.curves[variable].value(tau / self.length),
+        if self.is_through_past(variable) {
+            let end = self.values[self.unknowns.of(variable).start];
+            return self.history.value_through(variable, Some(end), self.length, tau);
         }
+        self.curves[variable].value(tau / self.length)
     }
 
     fn signal(&self, combination: &[(usize, f64)], signal: &mut Signal) {
@@ -422,9 +405,40 @@ impl Curves for HermiteCurves {
     }
 
     fn shape(&self, variable: usize, shape: usize) -> SharePolynomial {
-        match self.kinds[variable] {
-            Kind::Signal => self.history.end_shape(variable, self.length),
-            kind => self.shapes.of(kind)[shape],
+        match self.shapes.of(self.kinds[variable]) {
+            [] => self.history.end_shape(variable, self.length),
+            own => own[shape],
         }
     }
+}
+
+/// Lowest degree that goes on from one step to the next, whatever the columns miss.
+const CONTINUED_DEGREE: usize = 2;
+
+/// Share of its errors that a part of a curve may carry from one step into the next.
+const CARRIED: f64 = 0.1;
+
+/// Highest degree of what goes on from one step to the next, over a step so many times as `long`. Over a step of equal length a part of
+/// degree 2, 3, 4, 5 grows to 13, 63, 321, 1683 times its size, and with it the share that corrections leave wrong in it, the `rate`.
+fn continued_degree(long: f64, rate: Option<f64>) -> usize {
+    let Some(rate) = rate else {
+        return CONTINUED_DEGREE;
+    };
+    let carried = |degree: &usize| rate * SharePolynomial::legendre(*degree).value(1.0 + long);
+    let higher = (CONTINUED_DEGREE + 1..=HIGHEST_DEGREE).take_while(|degree| carried(degree) <= CARRIED);
+    higher.last().unwrap_or(CONTINUED_DEGREE)
+}
+
+/// What goes on of a curve behind its end: without its Legendre polynomials above this degree, and from the value that it has there.
+fn continued(curve: &SharePolynomial, degree: usize) -> SharePolynomial {
+    if curve.coefficients()[degree + 1..].iter().all(|one| *one == 0.0) {
+        return *curve;
+    }
+    let coefficients = curve.legendre_coefficients().into_iter().enumerate();
+    let mut low = SharePolynomial::default();
+    for (degree, coefficient) in coefficients.take(degree + 1) {
+        low.add(coefficient, &SharePolynomial::legendre(degree));
+    }
+    low.add(curve.value(1.0) - low.value(1.0), &SharePolynomial::power(0));
+    low
 }

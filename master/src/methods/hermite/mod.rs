@@ -26,8 +26,11 @@
 
 mod curves;
 mod coupling;
+mod moments;
+mod reduced;
 mod sample;
 mod scene;
+mod shapes;
 mod stack;
 mod variant;
 

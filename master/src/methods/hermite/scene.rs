@@ -3,27 +3,47 @@
 use serde::Serialize;
 
 use super::coupling::HermiteCoupling;
-use super::variant::Variant;
+use super::moments::Rule;
+use super::variant::{Family, HIGHEST_DEGREE, LEAST_DEGREE, Variant};
 use crate::joint::Level;
 use crate::methods::definition::{Definition, Given, Lacking, OwnCurves, Parameters};
 use crate::methods::method::Built;
 use crate::reading::formula::Steps;
-use crate::reading::reader::{Problems, Section};
-use crate::signal::{History, MAX_DEGREE, Variables};
+use crate::reading::reader::{Field, Problems, Section};
+use crate::signal::{AUTOMATIC_DEGREE, Degree, History, MAX_DEGREE, Variables};
 
 /// Polynomials of their own on every macro step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Hermite {
-    /// Which conditions fix them; default [`Variant::Apv`].
+    /// What holds at the start of a step; default [`Variant::Apv`].
     pub variant: Variant,
+    /// Degree p of the multipliers' polynomials, the highest one if it follows the estimates; default 2.
+    pub degree: usize,
+    /// Whether the degree follows the estimates.
+    pub degree_follows: bool,
+    /// Most instants inside a step at which the workers tell their positions.
+    pub instants: usize,
+    /// Whether top conditions are relaxed where the top coefficients do not fall; default true.
+    pub limiter: bool,
+    /// Whether connected signals are polynomials through past values; default: only where a worker tells nothing inside a step.
+    pub continues_signals: bool,
 }
+
+/// Instants where a scene gives no number of them: responses of up to 12 rad within a step are told apart.
+const INSTANTS: usize = 4;
+
+/// More are not needed for responses of 48 rad within a step.
+const MOST_INSTANTS: usize = 16;
+
+const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
 
 const VARIANTS: [(&str, Variant); 2] = [("apv", Variant::Apv), ("c0pv", Variant::C0pv)];
 
 impl Definition for Hermite {
     const NAME: &'static str = "hermite";
-    const KEYS: &'static [&'static str] = &["variant"];
+    const KEYS: &'static [&'static str] = &["variant", "degree", "instants", "limiter"];
     const CORRECTS: bool = true;
+    const LOWEST_DEGREE: usize = LEAST_DEGREE;
     const EXCHANGED_DEGREE: Option<usize> = Some(MAX_DEGREE);
 
     fn read(
@@ -35,7 +55,29 @@ impl Definition for Hermite {
         let variant = field.map_or(Some(Variant::Apv), |field| {
             field.choice(&VARIANTS, problems)
         });
-        Some(Self { variant: variant? })
+        let degree = section
+            .get("degree")
+            .map_or(Some(Degree::Fixed(LEAST_DEGREE)), |field| {
+                read_degree(&field, problems)
+            });
+        let highest = match degree {
+            None | Some(Degree::Automatic) => HIGHEST_DEGREE,
+            Some(Degree::Fixed(degree)) => degree,
+        };
+        let instants = section.get("instants").map_or(Some(INSTANTS.max(highest)), |field| {
+            field.whole(highest - 1, MOST_INSTANTS, problems)
+        });
+        let limiter = section
+            .get("limiter")
+            .map_or(Some(true), |field| field.choice(&SWITCH, problems));
+        Some(Self {
+            limiter: limiter?,
+            variant: variant?,
+            degree: highest,
+            degree_follows: degree? == Degree::Automatic,
+            instants: instants?,
+            continues_signals: section.get("exchanged_degree").is_some(),
+        })
     }
 }
 
@@ -54,19 +96,58 @@ impl Parameters for Hermite {
         let start = given.established.and_then(|values| values.first());
         let values = start.map_or(&given.values[..layout.variables()], |start| start);
         let history = History::new(variables, values, given.attitudes);
-        let (variant, outputs) = (self.variant, given.outputs);
-        Ok(HermiteCoupling::build(variant, history, layout, outputs))
+        let family = self.family(!layout.inside.shares.is_empty());
+        let rule = self.rule(layout.inside.shares.len(), layout.has_signals());
+        let outputs = given.outputs;
+        Ok(HermiteCoupling::build((family, &rule, self.limiter), history, layout, outputs))
+    }
+
+    fn instants(&self, has_signals: bool) -> Vec<f64> {
+        let needs_signals = has_signals && !self.continues_signals;
+        match self.degree > LEAST_DEGREE || needs_signals {
+            true => self.rule(self.instants, has_signals).shares,
+            false => Vec::new(),
+        }
+    }
+
+    fn needs_instants(&self) -> bool {
+        self.degree > LEAST_DEGREE
     }
 
     fn own_curves(&self) -> Option<OwnCurves> {
         Some(OwnCurves {
-            multipliers: self.variant.degree(),
-            motion: self.variant.motion_degree(),
-            key: "coupling.variant",
+            multipliers: self.degree,
+            follow: self.degree_follows,
+            motion: self.family(true).motion_degree(),
+            key: "coupling.degree",
         })
     }
 
     fn remembered_points(&self, _degree: usize, _exchanged_degree: usize) -> Option<usize> {
         Some(usize::from(!self.variant.starts_anew()))
+    }
+}
+
+/// A whole number, or `"automatic"`.
+fn read_degree(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Degree> {
+    if field.peek_text().is_some() {
+        return field.choice(&[(AUTOMATIC_DEGREE, Degree::Automatic)], problems);
+    }
+    let degree = field.whole(LEAST_DEGREE, HIGHEST_DEGREE, problems);
+    degree.map(Degree::Fixed)
+}
+
+impl Hermite {
+    /// The curves, if the workers tell something inside a step or not.
+    fn family(&self, is_told_inside: bool) -> Family {
+        Family {
+            variant: self.variant,
+            degree: self.degree,
+            has_own_signals: is_told_inside && !self.continues_signals,
+        }
+    }
+
+    fn rule(&self, instants: usize, has_signals: bool) -> Rule {
+        Rule::new(instants, has_signals && !self.continues_signals)
     }
 }

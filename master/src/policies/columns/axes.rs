@@ -12,35 +12,84 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::layout::{Frame, Layout};
 use crate::signal::attitude::{small_rotation, unit_quaternion};
+use crate::system::Outputs;
 
-/// The attitude of a frame that the coupling outputs of its subsystem tell.
-pub fn attitude_of(frame: &Frame, outputs: &[f64]) -> UnitQuaternion<f64> {
-    match frame.attitude[..] {
-        [w, x, y, z] => unit_quaternion([w, x, y, z].map(|place| outputs[place])),
-        [angle] => UnitQuaternion::from_axis_angle(&Vector3::z_axis(), outputs[angle]),
-        _ => UnitQuaternion::identity(),
+/// Writes the attitudes of all frames at the end of a look-ahead, then at each instant inside it; where they are not told there, those at
+/// the end.
+pub fn attitudes_of(
+    layout: &Layout,
+    ahead: &dyn Outputs,
+    attitudes: &mut Vec<UnitQuaternion<f64>>,
+) {
+    attitudes.clear();
+    let at_end = |frame: &Frame| {
+        let outputs = ahead.of(frame.subsystem);
+        attitude(frame, |place| outputs.get(place).copied())
+    };
+    attitudes.extend(
+        layout
+            .frames
+            .iter()
+            .map(|frame| at_end(frame).unwrap_or_default()),
+    );
+    for instant in 0..layout.inside.shares.len() {
+        for (number, frame) in layout.frames.iter().enumerate() {
+            let told = ahead.inside(frame.subsystem);
+            let inside = attitude(frame, |place| {
+                let place = layout.inside.find(frame.subsystem, instant, place)?;
+                told.get(place).copied()
+            });
+            attitudes.push(inside.unwrap_or(attitudes[number]));
+        }
     }
 }
 
-/// Turns responses from the attitudes `before` of all frames to the attitudes that `now` gives; `of_input` are those of each input, shape by
-/// shape. Responses that are not known are empty.
+/// The attitude of a frame that outputs tell, if they do.
+fn attitude(frame: &Frame, output: impl Fn(usize) -> Option<f64>) -> Option<UnitQuaternion<f64>> {
+    Some(match frame.attitude[..] {
+        [w, x, y, z] => {
+            let [w, x, y, z] = [w, x, y, z].map(output);
+            unit_quaternion([w?, x?, y?, z?])
+        }
+        [angle] => UnitQuaternion::from_axis_angle(&Vector3::z_axis(), output(angle)?),
+        _ => UnitQuaternion::identity(),
+    })
+}
+
+/// Turns responses from the attitudes `before` to the attitudes `now`, both as [`attitudes_of`] writes them; `of_input` are those of each
+/// input, shape by shape. Responses that are not known are empty.
 pub fn turn(
     layout: &Layout,
-    before: &[UnitQuaternion<f64>],
-    now: impl Fn(usize, &Frame) -> UnitQuaternion<f64>,
+    [before, now]: [&[UnitQuaternion<f64>]; 2],
     of_input: &[Range<usize>],
     responses: &mut [Vec<f64>],
 ) {
-    for (number, (before, frame)) in before.iter().zip(&layout.frames).enumerate() {
-        let now = now(number, frame);
-        let turn = now * before.inverse();
+    let frames = layout.frames.len();
+    for (number, frame) in layout.frames.iter().enumerate() {
+        let of_frame = |all: &[UnitQuaternion<f64>], instant: usize| all[instant * frames + number];
         for own in &of_input[layout.input_range(frame.subsystem)] {
             for response in responses[own.clone()].iter_mut() {
-                if !response.is_empty() {
-                    turn_outputs(frame, (before, &now), &turn, response);
+                if response.is_empty() {
+                    continue;
+                }
+                let at_end = [before, now].map(|all| of_frame(all, 0));
+                turn_outputs(frame, at_end, Some, response);
+                let outputs = layout.outputs[frame.subsystem].len();
+                // Responses over no length have nothing inside.
+                if response.len() == outputs {
+                    continue;
+                }
+                for instant in 0..layout.inside.shares.len() {
+                    let inside = [before, now].map(|all| of_frame(all, instant + 1));
+                    let find = |place: usize| {
+                        let found = layout.inside.find(frame.subsystem, instant, place);
+                        found.map(|found| outputs + found)
+                    };
+                    turn_outputs(frame, inside, find, response);
                 }
             }
         }
+        let turn = now[number] * before[number].inverse();
         for inputs in &frame.inputs {
             for shape in 0..of_input[inputs[0]].len() {
                 let place = |component: usize| of_input[inputs[component]].start + shape;
@@ -50,31 +99,50 @@ pub fn turn(
     }
 }
 
+/// Turns what a response says at one instant; `find` tells where an output stands there, if it is told.
 fn turn_outputs(
     frame: &Frame,
-    (before, now): (&UnitQuaternion<f64>, &UnitQuaternion<f64>),
-    turn: &UnitQuaternion<f64>,
+    [before, now]: [UnitQuaternion<f64>; 2],
+    find: impl Fn(usize) -> Option<usize>,
     response: &mut [f64],
 ) {
+    let turn = now * before.inverse();
     for places in &frame.vectors {
         let mut vector = Vector3::zeros();
-        for (component, &place) in vector.iter_mut().zip(places) {
-            *component = response[place];
+        let found = places
+            .iter()
+            .zip(vector.iter_mut())
+            .all(|(&place, component)| {
+                let place = find(place);
+                place.is_some_and(|place| {
+                    *component = response[place];
+                    true
+                })
+            });
+        if !found {
+            continue;
         }
         vector = turn * vector;
-        for (component, &place) in vector.iter().zip(places) {
+        for (component, place) in vector
+            .iter()
+            .zip(places.iter().filter_map(|&place| find(place)))
+        {
             response[place] = *component;
         }
     }
-    if let [w, x, y, z] = frame.attitude[..] {
-        let parts = [w, x, y, z];
-        let old = [before.w, before.i, before.j, before.k];
-        let rotation = turn * small_rotation(old, parts.map(|place| response[place]));
-        let change = Quaternion::from_imag(0.5 * rotation) * now.quaternion();
-        let changes = [change.w, change.i, change.j, change.k];
-        for (place, change) in parts.into_iter().zip(changes) {
-            response[place] = change;
-        }
+    let [w, x, y, z] = frame.attitude[..] else {
+        return;
+    };
+    let [Some(w), Some(x), Some(y), Some(z)] = [w, x, y, z].map(find) else {
+        return;
+    };
+    let parts = [w, x, y, z];
+    let old = [before.w, before.i, before.j, before.k];
+    let rotation = turn * small_rotation(old, parts.map(|place| response[place]));
+    let change = Quaternion::from_imag(0.5 * rotation) * now.quaternion();
+    let changes = [change.w, change.i, change.j, change.k];
+    for (place, change) in parts.into_iter().zip(changes) {
+        response[place] = change;
     }
 }
 

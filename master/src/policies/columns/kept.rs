@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use nalgebra::UnitQuaternion;
 
-use super::axes::{attitude_of, turn};
+use super::axes::{attitudes_of, turn};
 use super::lengths::Between;
 use super::measured::{Kind, Measured};
 use super::settings::{MOST_SUPPORTS, SETTINGS};
 use crate::joint::Level;
 use crate::layout::Layout;
 use crate::signal::Nodes;
+use crate::system::Outputs;
 
 /// The responses as they were measured over look-aheads of several lengths, and the attitudes that the bodies had then.
 ///
@@ -28,6 +29,8 @@ pub struct Kept {
     /// To what the responses in use belong, and to what those of the macro step before did.
     kind: Kind,
     last: Kind,
+    /// Attitudes at the last look-ahead.
+    attitudes: Vec<UnitQuaternion<f64>>,
     /// Whether responses of this kind are taken from `between`.
     is_between: bool,
 }
@@ -38,10 +41,8 @@ impl Kept {
         Self {
             settled: Vec::with_capacity(if stay { SETTINGS.most_kinds } else { 0 }),
             stay,
-            pending: Measured {
-                attitudes: vec![UnitQuaternion::identity(); layout.frames.len()],
-                ..Measured::default()
-            },
+            pending: Measured::default(),
+            attitudes: Vec::new(),
             is_pending: false,
             between: Between::new(layout, levels),
             kind: Kind::default(),
@@ -128,30 +129,23 @@ impl Kept {
     }
 
     /// Takes responses that were measured at these coupling outputs.
-    pub fn keep<'a>(
-        &mut self,
-        layout: &Layout,
-        outputs: impl Fn(usize) -> &'a [f64],
-        responses: &[Vec<f64>],
-    ) {
+    pub fn keep(&mut self, layout: &Layout, outputs: &dyn Outputs, responses: &[Vec<f64>]) {
         let pending = &mut self.pending;
         pending.kind.set(self.kind.length, self.kind.nodes());
         pending.responses.resize_with(responses.len(), Vec::new);
         for (measured, response) in pending.responses.iter_mut().zip(responses) {
             measured.clone_from(response);
         }
-        for (attitude, frame) in pending.attitudes.iter_mut().zip(&layout.frames) {
-            *attitude = attitude_of(frame, outputs(frame.subsystem));
-        }
+        attitudes_of(layout, outputs, &mut pending.attitudes);
         self.is_pending = true;
     }
 
     /// Writes the responses of the kind in use, turned to the attitudes of these coupling outputs; `of_input` are those of each input. Gives
     /// whether there are any.
-    pub fn carry<'a>(
-        &self,
+    pub fn carry(
+        &mut self,
         layout: &Layout,
-        outputs: impl Fn(usize) -> &'a [f64],
+        outputs: &dyn Outputs,
         of_input: &[Range<usize>],
         responses: &mut [Vec<f64>],
     ) -> bool {
@@ -166,8 +160,9 @@ impl Kept {
         for (response, measured) in responses.iter_mut().zip(&measured.responses) {
             response.clone_from(measured);
         }
-        let now = |_: usize, frame: &_| attitude_of(frame, outputs(frame.subsystem));
-        turn(layout, &measured.attitudes, now, of_input, responses);
+        attitudes_of(layout, outputs, &mut self.attitudes);
+        let attitudes = [&measured.attitudes[..], &self.attitudes];
+        turn(layout, attitudes, of_input, responses);
         true
     }
 }

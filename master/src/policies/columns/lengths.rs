@@ -47,6 +47,11 @@ impl Between {
                 }
             }
         }
+        // What is told inside a step are positions.
+        for (subsystem, powers) in powers.iter_mut().enumerate() {
+            let size = powers.len() + layout.inside.values(subsystem);
+            powers.resize(size, POWERS[0]);
+        }
         Self {
             levels,
             powers,
@@ -78,8 +83,8 @@ impl Between {
             for (turned, response) in turned.iter_mut().zip(&support.responses) {
                 turned.clone_from(response);
             }
-            let to = |frame: usize, _: &_| nearest.attitudes[frame];
-            turn(layout, &support.attitudes, to, of_input, turned);
+            let attitudes = [&support.attitudes[..], &nearest.attitudes];
+            turn(layout, attitudes, of_input, turned);
         }
         let mut lengths = [0.0; MOST_SUPPORTS];
         for (length, support) in lengths.iter_mut().zip(supports()) {

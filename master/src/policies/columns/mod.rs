@@ -320,13 +320,12 @@ impl Columns {
     /// Takes the difference quotients of the last answers of all workers, if columns were asked for; otherwise carries earlier
     /// ones along to the attitudes of the last prediction.
     pub fn difference(&mut self, layout: &Layout, ahead: &dyn LookAhead) {
-        let outputs = |subsystem: usize| ahead.of(subsystem);
         if std::mem::take(&mut self.are_fresh) {
             self.take_responses(layout, ahead);
-            self.kept.keep(layout, outputs, &self.responses);
+            self.kept.keep(layout, ahead, &self.responses);
         } else {
             let own = &self.raised_of_input;
-            let carried = self.kept.carry(layout, outputs, own, &mut self.responses);
+            let carried = self.kept.carry(layout, ahead, own, &mut self.responses);
             if !carried {
                 return;
             }

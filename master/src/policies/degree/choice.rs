@@ -43,6 +43,9 @@ pub struct Prospect {
 /// What is known about the degrees that may follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prospects {
+    /// Whether the polynomials are found anew in every step: their errors do not oscillate with those of earlier ones, and the lowest degree is
+    /// the one that has no lower prospect.
+    pub are_anew: bool,
     /// Number of past points since the variables have jumped, the end of the step not counted.
     pub smooth_points: usize,
     /// With one degree less; absent like the others where the past is too short to tell.
@@ -137,7 +140,8 @@ impl DegreeChoice {
         let is_better = |other: Option<Prospect>, gain| {
             other.is_some_and(|other| other.is_better(present, gain, purpose))
         };
-        let lower = prospects.lower.filter(|_| degree > SETTINGS.lowest);
+        let may_fall = degree > SETTINGS.lowest || prospects.are_anew;
+        let lower = prospects.lower.filter(|_| may_fall);
         let is_lower_better = is_better(lower, 1.0);
         if purpose == Purpose::Repetition {
             return degree - usize::from(is_lower_better);
@@ -155,7 +159,8 @@ impl DegreeChoice {
         };
         self.lower = count(self.lower, lower);
         self.higher = count(self.higher, higher);
-        match (self.lower > degree, self.higher > degree) {
+        let patience = if prospects.are_anew { 0 } else { degree };
+        match (self.lower > patience, self.higher > patience) {
             (true, true) if self.higher > self.lower => degree + 1,
             (true, _) => degree - 1,
             (false, true) => degree + 1,
@@ -184,6 +189,7 @@ mod tests {
         };
         let [lower, present, higher] = scaled;
         Prospects {
+            are_anew: false,
             smooth_points,
             lower: degree
                 .checked_sub(1)

@@ -18,6 +18,11 @@ pub struct Settings {
     /// What columns of an earlier step may leave of a correction, relative to usual corrections. Larger leaves errors that change from step
     /// to step, smaller takes passes for nothing. Where steps vary 3e-3: the error of such a step is a thirtieth of a correction and more.
     pub most_left: f64,
+    /// What corrections may leave of the error that is allowed, where it is known by how much they change what has an error. Larger spoils
+    /// steps that are accurate otherwise, smaller takes passes for nothing.
+    pub most_of_allowed: f64,
+    /// Share of a correction below which what it misses is rounding, which passes do not take away.
+    pub rounding: f64,
     /// Rate of convergence above which new columns come with the next look-ahead. Smaller asks more often, larger takes more passes:
     /// at 0.3 one pass less pays for the columns of two or three inputs.
     pub slow: f64,
@@ -39,6 +44,8 @@ impl Settings {
     pub(crate) fn new(varies: bool) -> Self {
         Self {
             most_left: if varies { 3e-3 } else { MOST_LEFT },
+            most_of_allowed: 0.1,
+            rounding: 1e-8,
             slow: 0.3,
             too_slow: 0.5,
             above_noise: 2.0,
@@ -98,6 +105,8 @@ pub struct IterationControl {
 pub struct State {
     /// Share that a correction misses with the columns at hand; `None` until a step has shown it.
     rate: Option<f64>,
+    /// Share that a correction misses even with new columns, since the conditions are not linear.
+    fresh_rate: Option<f64>,
     /// Share that the first correction of a step has left, which takes into account what it was foreseen to miss.
     left_by_first: Option<f64>,
     /// Whether the columns at hand belong to the look-ahead over the present step.
@@ -221,13 +230,22 @@ impl IterationControl {
 
     fn leaves_too_much(&self) -> bool {
         let state = &self.state;
-        if self.rule == Jacobian::EveryStep || state.are_fresh || state.last.of_usual == 0.0 {
+        if state.last.of_usual == 0.0 {
             return false;
         }
         let left = match state.passes.count {
+            _ if state.are_fresh => state.fresh_rate,
             0 => state.left_by_first.or(self.unknown_rate),
             _ => state.rate,
         };
+        if let Some(change) = state.last.of_allowed {
+            let most = self.settings.most_of_allowed;
+            let leaves = |share: f64| share > self.settings.rounding && share * change > most;
+            return change > most && left.is_none_or(leaves);
+        }
+        if self.rule == Jacobian::EveryStep || state.are_fresh {
+            return false;
+        }
         let noise = self.settings.above_noise * state.noise;
         let most = self.settings.most_left.max(noise);
         left.is_none_or(|share| share * state.last.of_usual > most)
@@ -239,6 +257,9 @@ impl IterationControl {
         let rate = rate(change.of_usual, state.last.of_usual);
         if state.passes.count == 0 {
             state.left_by_first = Some(rate);
+        }
+        if state.are_fresh {
+            state.fresh_rate = Some(rate);
         }
         state.passes.count += 1;
         tracing::debug!(
@@ -298,6 +319,14 @@ impl IterationControl {
         state.length = step.length;
     }
 
+    /// Share that corrections have missed last, with columns of earlier steps or new ones.
+    pub fn rate(&self) -> Option<f64> {
+        let State {
+            rate, fresh_rate, ..
+        } = self.state;
+        rate.zip(fresh_rate).map(larger).or(rate).or(fresh_rate)
+    }
+
     /// How the corrections of the step went.
     pub fn passes(&self) -> Passes {
         self.state.passes
@@ -318,7 +347,11 @@ impl IterationControl {
         let is_noise = self.listen(missed);
         match self.state.are_fresh {
             // What new columns leave says nothing of how they serve in later steps.
-            true => (self.state.rate, self.state.left_by_first) = (None, None),
+            true => {
+                let of_last = rate(missed.by_last, self.state.last.of_usual);
+                self.state.fresh_rate = Some(of_last);
+                (self.state.rate, self.state.left_by_first) = (None, None);
+            }
             false => self.note_missed(missed, is_noise),
         }
     }

@@ -13,6 +13,7 @@ fn step(number: u32) -> MacroStep {
 /// A correction of this size, relative to usual ones and to the variables.
 fn change(size: f64) -> Change {
     Change {
+        of_allowed: None,
         of_usual: size,
         of_size: size,
         variable: 0,

@@ -6,7 +6,8 @@
 //! H_{N+1} = H_N  s  e_N^(-0.7/p)  e_{N-1}^(0.4/p),   s = 0.9,
 //! ```
 //!
-//! a proportional-integral controller, so that the length does not swing; within the limits of [`Settings`].
+//! a proportional-integral controller, so that the length does not swing; where the error is known from the step alone and far below
+//! what is allowed, `H_{N+1} = H_N s e_N^(-1/p)`. Both within the limits of [`Settings`].
 
 mod control;
 mod settings;
@@ -196,9 +197,15 @@ impl StepSize {
     /// if the degrees stay.
     pub fn accept(&mut self, step: MacroStep, estimate: &Estimate, has_equal_degrees: bool) -> f64 {
         let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
-        let scaled = estimate.scaled.max(SETTINGS.least_error);
+        let (least_error, most_growth) = match estimate.is_of_step_alone {
+            true => (0.0, SETTINGS.most_growth_alone),
+            false => (SETTINGS.least_error, SETTINGS.most_growth),
+        };
+        let scaled = estimate.scaled.max(least_error);
         let possible = SETTINGS.safety * power(scaled, -1.0);
-        let smooth = match has_equal_degrees {
+        // Far below what is allowed there is nothing to be smoothed.
+        let is_far = estimate.is_of_step_alone && possible > SETTINGS.most_growth;
+        let smooth = match has_equal_degrees && !is_far {
             true => {
                 let before = power(self.state.before, SETTINGS.proportional);
                 SETTINGS.safety * power(scaled, -SETTINGS.integral) * before
@@ -206,11 +213,7 @@ impl StepSize {
             false => possible,
         };
         let state = &mut self.state;
-        let most = if state.is_repeated {
-            1.0
-        } else {
-            SETTINGS.most_growth
-        };
+        let most = if state.is_repeated { 1.0 } else { most_growth };
         let keeps = (SETTINGS.keep_from..=SETTINGS.keep_to).contains(&possible);
         let mut wish = match keeps {
             true => step.length,

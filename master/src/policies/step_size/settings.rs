@@ -19,6 +19,8 @@ pub struct Settings {
     pub most_shrinking: f64,
     /// Largest ratio of two successive lengths. More would make polynomials over unequal steps unstable.
     pub most_growth: f64,
+    /// The same where the error is known from the step alone.
+    pub most_growth_alone: f64,
     /// A step that could be longer by no more than this factor keeps its length: histories and columns of equal steps are worth more.
     pub keep_to: f64,
     /// A step that should be shorter by no more than this factor keeps its length. Smaller rejects more of the next ones.
@@ -48,6 +50,7 @@ pub(crate) const SETTINGS: Settings = Settings {
     proportional: 0.4,
     most_shrinking: 0.1,
     most_growth: MOST_GROWTH,
+    most_growth_alone: 4.0,
     keep_to: 1.25,
     keep_from: 0.95,
     smooth_order: 0.5,

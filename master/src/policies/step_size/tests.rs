@@ -48,6 +48,7 @@ fn step(length: f64) -> MacroStep {
 
 fn estimate(scaled: f64, order: usize, change: f64) -> Estimate {
     Estimate {
+        is_of_step_alone: false,
         scaled,
         order,
         suspect: Suspect::None,

@@ -33,9 +33,9 @@ fn a_variant_of_hermite_coupling_has_its_name_and_its_degree() {
         &["\"apc\"", "apv, c0pv", "did you mean `apv`?"],
     );
     assert_coupling_mistake(
-        "method = 'hermite'\ndegree = 2",
+        "method = 'hermite'\ndegree = 6",
         "degree",
-        &["`hermite` has no `degree`"],
+        &["from 2 to 5", "6"],
     );
 }
 
@@ -66,9 +66,14 @@ fn only_correctors_that_interpolate_have_a_degree_that_follows_the_estimates() {
         );
     }
     assert_coupling_mistake(
-        "method = 'hermite'\ndegree = 'automatic'",
+        "method = 'hermite'\ndegree = 'autmatic'",
         "degree",
-        &["`hermite` has no `degree`"],
+        &["did you mean `automatic`?"],
+    );
+    assert_coupling_mistake(
+        "method = 'hermite'\ndegree = 4\ninstants = 2",
+        "instants",
+        &["from 3 to 16", "2"],
     );
     assert_coupling_mistake(
         "method = 'weighted'\ndegree = 'automatc'",

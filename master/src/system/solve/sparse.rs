@@ -143,9 +143,14 @@ fn column_order(pattern: &Pattern) -> Perm<usize> {
     Perm::new_checked(order.into(), inverse.into(), n)
 }
 
-/// Numbers between -1/2 and 1/2 without a visible relation: fractions of multiples of the golden ratio.
+/// Numbers between -1/2 and 1/2 without any relation (SplitMix64, Steele, Lea and Flood 2014). Multiples of one number would not do: in a
+/// regular pattern they make blocks of low rank.
 fn unrelated(count: usize) -> Vec<f64> {
-    const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
-    let fraction = |number| (number as f64 * GOLDEN_RATIO).fract() - 0.5;
-    (1..=count).map(fraction).collect()
+    let fraction = |number: u64| {
+        let mut z = number.wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    (1..=count as u64).map(fraction).collect()
 }

@@ -45,6 +45,12 @@ impl Subsystem {
         values(self.reply.predicted.as_ref())
     }
 
+    /// What was told at the instants inside the last advance.
+    pub(crate) fn advanced_inside(&self) -> &[f64] {
+        let advanced = values(self.reply.advanced.as_ref());
+        advanced.get(self.output_names.len()..).unwrap_or_default()
+    }
+
     /// Outputs at a sample inside the last advance, in the order of the names.
     pub(crate) fn sample(&self, place: usize) -> &[f64] {
         let sample = self.reply.samples.get(place);
@@ -77,13 +83,15 @@ impl Subsystem {
             ["samples", "sampled outputs"],
             samples,
             &self.output_names,
+            0,
             step,
         )?;
         let advanced = values(self.reply.advanced.as_ref());
-        self.check("advanced outputs", advanced, &self.output_names, step)?;
+        let named = ("advanced outputs", &self.output_names[..]);
+        self.check(named, advanced, advance.instants.len(), step)?;
+        let at_end = &advanced[..self.output_names.len()];
         self.outputs.clear();
-        self.outputs
-            .extend_from_slice(values(self.reply.advanced.as_ref()));
+        self.outputs.extend_from_slice(at_end);
         Ok(())
     }
 
@@ -91,12 +99,19 @@ impl Subsystem {
         let names = &self.output_names[..self.coupling_outputs];
         let reply = &self.reply;
         if let Some(predict) = &self.request.predict {
-            self.check("predicted outputs", self.predicted(), names, step)?;
+            let instants = predict.instants.len();
+            self.check(
+                ("predicted outputs", names),
+                self.predicted(),
+                instants,
+                step,
+            )?;
             let perturbed = (&reply.perturbed[..], predict.perturbed.len());
             self.check_each(
                 ["perturbed steps", "perturbed outputs"],
                 perturbed,
                 names,
+                instants,
                 step,
             )?;
             let derivatives = (&reply.derivatives[..], predict.directions.len());
@@ -107,6 +122,7 @@ impl Subsystem {
                 ],
                 derivatives,
                 names,
+                instants,
                 step,
             )?;
         }
@@ -118,12 +134,13 @@ impl Subsystem {
         let reply = &self.reply;
         if let Some(evaluate) = &self.request.evaluate {
             let evaluated = values(reply.evaluated.as_ref());
-            self.check("evaluated outputs", evaluated, names, step)?;
+            self.check(("evaluated outputs", names), evaluated, 0, step)?;
             let perturbed = (&reply.evaluated_perturbed[..], evaluate.perturbed.len());
             self.check_each(
                 ["perturbed evaluations", "perturbed outputs"],
                 perturbed,
                 names,
+                0,
                 step,
             )?;
             let derivatives = (&reply.evaluated_derivatives[..], evaluate.directions.len());
@@ -134,6 +151,7 @@ impl Subsystem {
                 ],
                 derivatives,
                 names,
+                0,
                 step,
             )?;
         }
@@ -146,37 +164,48 @@ impl Subsystem {
         [list, entry]: [&'static str; 2],
         (found, expected): (&[v1::Outputs], usize),
         names: &[String],
+        instants: usize,
         step: MacroStep,
     ) -> Result<(), RunError> {
         if found.len() != expected {
             return Err(self.wrong_count(list, found.len(), expected, step));
         }
         for outputs in found {
-            self.check(entry, &outputs.values, names, step)?;
+            self.check((entry, names), &outputs.values, instants, step)?;
         }
         Ok(())
     }
 
+    /// Checks that outputs are whole and finite: those with `names`, then interior ones at that many `instants`.
     pub(super) fn check(
         &self,
-        what: &'static str,
+        (what, names): (&'static str, &[String]),
         values: &[f64],
-        names: &[String],
+        instants: usize,
         step: MacroStep,
     ) -> Result<(), RunError> {
-        if values.len() != names.len() {
-            return Err(self.wrong_count(what, values.len(), names.len(), step));
+        let expected = names.len() + instants * self.interior_names.len();
+        if values.len() != expected {
+            return Err(self.wrong_count(what, values.len(), expected, step));
         }
         match values.iter().position(|value| !value.is_finite()) {
             None => Ok(()),
             Some(place) => Err(RunError::NotFinite {
                 subsystem: self.name.clone(),
-                variable: names[place].clone(),
+                variable: self.name_of(names, place),
                 value: values[place],
                 t: step.start,
                 step: step.length,
             }),
         }
+    }
+
+    fn name_of(&self, names: &[String], place: usize) -> String {
+        let inside = || self.interior_names.iter().cycle();
+        let name = names
+            .get(place)
+            .or_else(|| inside().nth(place - names.len()));
+        name.cloned().unwrap_or_default()
     }
 
     fn wrong_count(

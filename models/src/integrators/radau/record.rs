@@ -34,6 +34,11 @@ impl Record {
 
     /// Whether this is the interval of the record.
     pub fn is_of(&self, length: f64, y: &[f64]) -> bool {
-        self.length == Some(length) && self.start == y
+        self.is_over(length) && self.start == y
+    }
+
+    /// Whether this is the length of the record, wherever it started.
+    pub fn is_over(&self, length: f64) -> bool {
+        self.length == Some(length)
     }
 }
