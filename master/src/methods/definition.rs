@@ -6,8 +6,9 @@ use super::method::Built;
 use crate::joint::Level;
 use crate::layout::Layout;
 use crate::reading::formula::Steps;
+use crate::reading::key::{Key, Takes};
 use crate::reading::reader::{Problems, Section};
-use crate::signal::{Degree, History, MAX_DEGREE};
+use crate::signal::{AUTOMATIC_DEGREE, Degree, History, MAX_DEGREE};
 use crate::system::Outputs;
 
 /// The parameters of a method: a type of its own, which reads them. Only the first three have no default.
@@ -15,8 +16,8 @@ pub(crate) trait Definition: Parameters + Sized {
     /// Its name in a scene.
     const NAME: &'static str;
 
-    /// Keys of `[coupling]` that it has and that not every method has; `degree` among them if a scene chooses it.
-    const KEYS: &'static [&'static str];
+    /// Keys of `[coupling]` that it has and that not every method has; [`DEGREE`] among them if a scene chooses it.
+    const KEYS: &'static [Key];
 
     /// Reads them, where the macro steps are `steps`; mistakes are reported, and told by `None`.
     fn read(
@@ -37,6 +38,22 @@ pub(crate) trait Definition: Parameters + Sized {
     /// Degree of the polynomials of exchanged variables where a scene gives none, if it does not follow from that of the multipliers.
     const EXCHANGED_DEGREE: Option<usize> = None;
 }
+
+/// The key of a method whose multipliers have the degree that a scene chooses.
+pub(crate) const DEGREE: Key = Key::new("degree", DEGREES)
+    .default("1 (explicit: 0)")
+    .means(
+        "k, degree of the polynomials of the multipliers; not for hermite, where the \
+         variant says it. `\"automatic\"`, for baumgarte and weighted: on every step the \
+         one that the estimates favour, never above the stable ones \
+         ([how](../theory/step-control.md#degrees-that-follow-the-error))",
+    );
+
+/// Degrees of polynomials.
+pub(crate) const DEGREES: Takes = Takes::Either(&[
+    Takes::Whole(0, MAX_DEGREE),
+    Takes::Choice(&[AUTOMATIC_DEGREE]),
+]);
 
 /// What follows from the parameters of a method.
 pub trait Parameters {

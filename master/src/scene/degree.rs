@@ -21,7 +21,7 @@ pub(super) fn read(
 ) -> Option<Degree> {
     if field.peek_text().is_none() {
         let highest = offered.map_or(MAX_DEGREE, |degrees| degrees.highest);
-        return field.whole(0, highest, problems).map(Degree::Fixed);
+        return field.whole_within(0, highest, problems).map(Degree::Fixed);
     }
     let degree = field.choice(&[(AUTOMATIC_DEGREE, Degree::Automatic)], problems)?;
     match offered.filter(|degrees| !degrees.may_change) {

@@ -8,7 +8,8 @@ use crate::joint::Level;
 use crate::methods::definition::{Definition, Given, Lacking, OwnCurves, Parameters};
 use crate::methods::method::Built;
 use crate::reading::formula::Steps;
-use crate::reading::reader::{Problems, Section};
+use crate::reading::key::{Key, Takes, texts};
+use crate::reading::reader::{Problems, Section, choice};
 use crate::signal::{History, MAX_DEGREE, Variables};
 
 /// Polynomials of their own on every macro step.
@@ -18,11 +19,14 @@ pub struct Hermite {
     pub variant: Variant,
 }
 
+const KEYS: [Key; 1] = [Key::new("variant", Takes::Choice(&texts(&VARIANTS)))
+    .default_first()
+    .means("[what they demand](../theory/hermite.md#the-variants)")];
 const VARIANTS: [(&str, Variant); 2] = [("apv", Variant::Apv), ("c0pv", Variant::C0pv)];
 
 impl Definition for Hermite {
     const NAME: &'static str = "hermite";
-    const KEYS: &'static [&'static str] = &["variant"];
+    const KEYS: &'static [Key] = &KEYS;
     const CORRECTS: bool = true;
     const EXCHANGED_DEGREE: Option<usize> = Some(MAX_DEGREE);
 
@@ -31,10 +35,8 @@ impl Definition for Hermite {
         _steps: Option<Steps>,
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
-        let field = section.get("variant");
-        let variant = field.map_or(Some(Variant::Apv), |field| {
-            field.choice(&VARIANTS, problems)
-        });
+        let [variant] = section.fields(&KEYS, problems);
+        let variant = choice(variant, &VARIANTS, problems);
         Some(Self { variant: variant? })
     }
 }
