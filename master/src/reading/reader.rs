@@ -288,13 +288,16 @@ pub(crate) struct Section<'w> {
 }
 
 impl<'w> Section<'w> {
-    /// The whole scene.
-    pub(crate) fn root(written: &'w Written, table: &'w Table) -> Self {
-        Self {
+    /// The whole file.
+    pub(crate) fn root(written: &'w Written) -> Option<Self> {
+        let Value::Table(table) = &written.root.value else {
+            return None;
+        };
+        Some(Self {
             key: String::new(),
             spot: &written.root.spot,
             table,
-        }
+        })
     }
 
     pub(crate) fn key_of(&self, key: &str) -> String {

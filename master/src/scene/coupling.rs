@@ -1,6 +1,6 @@
 //! Reads `[coupling]`: method, parameters, degree and macro step.
 
-use super::degree::{self, Degrees};
+use super::degree;
 use super::resolved::{Coupling, Degree, Increment, Iterations, Jacobian, Loads, Otherwise};
 use super::step_control::{self, MACRO_STEP, MacroSteps, TOLERANCE, VARIABLE};
 use crate::methods::{DEGREE, DEGREES, Entry, Method};
@@ -137,14 +137,6 @@ impl Entry<Method> {
             (None, Degree::Fixed(degree)) => Degree::Fixed(self.highest_degree.min(degree.max(2))),
         }
     }
-
-    fn degrees(&self) -> Degrees {
-        Degrees {
-            method: self.name,
-            highest: self.highest_degree,
-            may_change: self.may_change_degree,
-        }
-    }
 }
 
 /// True for a parameter that some methods have, but not the one of this name.
@@ -191,11 +183,11 @@ pub(super) fn read(
     let own_curves = method.and_then(|method| method.parameters().own_curves());
     let degree = match (section.get(&DEGREE), kind, own_curves) {
         (_, _, Some(own)) => Some(Degree::Fixed(own.multipliers)),
-        (Some(field), ..) => degree::read(&field, kind.map(Entry::degrees), problems),
+        (Some(field), ..) => degree::read(&field, kind, problems),
         (None, kind, _) => kind.map(Entry::default_degree),
     };
     let exchanged_degree = match (exchanged_degree, kind, degree) {
-        (Some(field), ..) => degree::read(&field, kind.map(Entry::degrees), problems),
+        (Some(field), ..) => degree::read(&field, kind, problems),
         (None, Some(kind), Some(degree)) => Some(kind.default_exchanged_degree(degree)),
         (None, ..) => None,
     };

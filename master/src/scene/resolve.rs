@@ -17,7 +17,7 @@ use crate::reading::key::{FINITE, Key, Range, Takes};
 use crate::reading::lists::sections;
 use crate::reading::names::Registry;
 use crate::reading::reader::{Field, Problems, Section, collect, given};
-use crate::reading::written::{Value, Written};
+use crate::reading::written::Written;
 
 /// The tables of a scene file.
 pub const SCENE_KEYS: [Key; 11] = [
@@ -96,10 +96,7 @@ pub(super) fn resolve(written: Written, earlier: Vec<SceneError>) -> Result<Scen
 }
 
 fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
-    let Value::Table(table) = &written.root.value else {
-        return None;
-    };
-    let root = Section::root(written, table);
+    let root = Section::root(written)?;
     let [
         head,
         coupling,
@@ -113,13 +110,10 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         stability,
         monolithic,
     ] = root.read(&SCENE_KEYS, problems);
-    let head = head
-        .and_then(|field| field.section(problems))
-        .and_then(|section| read_head(&section, problems));
+    let head = head.and_then(|field| read_head(&field.section(problems)?, problems));
     let duration = head.as_ref().map(|head| head.t_end - head.t_start);
-    let coupling = coupling
-        .and_then(|field| field.section(problems))
-        .and_then(|section| coupling::read(&section, duration, problems));
+    let coupling =
+        coupling.and_then(|field| coupling::read(&field.section(problems)?, duration, problems));
     if subsystems.is_none() {
         problems.report(root.spot, SceneErrorKind::NoSubsystem);
     }

@@ -9,7 +9,7 @@ use crate::reading::lists::sections;
 use crate::reading::names::report_repeated;
 use crate::reading::reader::{Field, Problems, Section, collect, given};
 use crate::reading::text::text_of;
-use crate::reading::written::{Value, Written};
+use crate::reading::written::Written;
 
 /// Schemes over the step, and a region of parameters; one of them is there.
 #[derive(Clone, Debug, PartialEq)]
@@ -208,10 +208,7 @@ const STEP_OVER_PERIOD: Range = Range {
 
 /// Whether the file at `path` describes spectra, as one with a table `spectrum` does; false if it cannot be read.
 pub fn is_spectrum(path: &Path) -> bool {
-    let text = text_of(path, SPECTRUM_FILE).ok();
-    let written = text.and_then(|text| Written::parse(&text, "", SPECTRUM_FILE).ok());
-    let root = written.map(|written| written.root.value);
-    matches!(root, Some(Value::Table(table)) if table.contains_key("spectrum"))
+    Written::has_table(path, SPECTRUM_KEYS[0].name)
 }
 
 /// Reads a spectrum file.
@@ -235,10 +232,7 @@ pub fn parse_spectrum(text: &str, origin: &str) -> Result<SpectrumFile, SceneErr
 }
 
 fn read(written: &Written, problems: &mut Problems<'_>) -> Option<SpectrumFile> {
-    let Value::Table(table) = &written.root.value else {
-        return None;
-    };
-    let root = Section::root(written, table);
+    let root = Section::root(written)?;
     // Of a scene, every key would be a mistake.
     let [head] = root.fields(&SPECTRUM_KEYS, problems);
     let head = head?;
@@ -297,9 +291,7 @@ fn report_equal_labels(
 fn read_curve(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<SpectrumCurve> {
     let [label, scheme] = section.read(&CURVE_KEYS, problems);
     let label = label.and_then(|field| field.filled_text(problems));
-    let scheme = scheme
-        .and_then(|field| field.section(problems))
-        .and_then(|scheme| read_scheme(&scheme, problems));
+    let scheme = scheme.and_then(|field| read_scheme(&field.section(problems)?, problems));
     Some(SpectrumCurve {
         label: label?,
         scheme: scheme?,

@@ -16,7 +16,7 @@ use crate::reading::place::Source;
 use crate::reading::reader::{Field, Problems, Section, choice, collect, given};
 use crate::reading::reference::find_name;
 use crate::reading::text::text_of;
-use crate::reading::written::{Value, Written};
+use crate::reading::written::Written;
 
 /// A study: every scene with every setting that is meant for it, over the macro steps of the scene.
 #[derive(Clone, Debug)]
@@ -202,10 +202,7 @@ const DEFAULT_TARGETS: [f64; 3] = [1e-4, 1e-6, 1e-8];
 
 /// Whether the file at `path` is a study, as one with a table `study` is; false if it cannot be read.
 pub fn is_study(path: &Path) -> bool {
-    let text = text_of(path, STUDY_FILE).ok();
-    let written = text.and_then(|text| Written::parse(&text, "", STUDY_FILE).ok());
-    let root = written.map(|written| written.root.value);
-    matches!(root, Some(Value::Table(table)) if table.contains_key("study"))
+    Written::has_table(path, STUDY_KEYS[0].name)
 }
 
 /// Reads a study file; its paths count from its own folder.
@@ -229,14 +226,9 @@ pub fn parse_study(text: &str, origin: &str) -> Result<StudyFile, SceneErrors> {
 }
 
 fn read(written: &Written, problems: &mut Problems<'_>) -> Option<StudyFile> {
-    let Value::Table(table) = &written.root.value else {
-        return None;
-    };
-    let root = Section::root(written, table);
+    let root = Section::root(written)?;
     let [head, scenes, settings] = root.read(&STUDY_KEYS, problems);
-    let head = head
-        .and_then(|field| field.section(problems))
-        .and_then(|section| read_head(&section, problems));
+    let head = head.and_then(|field| read_head(&field.section(problems)?, problems));
     let scene_tables = sections(scenes, problems);
     let setting_tables = sections(settings, problems);
     let scene_names = Registry::collect("scene", &scene_tables, None, problems);
