@@ -6,17 +6,19 @@ use super::method::Built;
 use crate::joint::Level;
 use crate::layout::Layout;
 use crate::reading::formula::Steps;
+use crate::reading::key::{Key, Takes};
 use crate::reading::reader::{Problems, Section};
-use crate::signal::{Degree, History, MAX_DEGREE};
+use crate::signal::{AUTOMATIC_DEGREE, Degree, History, MAX_DEGREE};
 use crate::system::Outputs;
+use linchpin_proto::polynomial::MAX_NODES;
 
 /// The parameters of a method: a type of its own, which reads them. Only the first three have no default.
 pub(crate) trait Definition: Parameters + Sized {
     /// Its name in a scene.
     const NAME: &'static str;
 
-    /// Keys of `[coupling]` that it has and that not every method has; `degree` among them if a scene chooses it.
-    const KEYS: &'static [&'static str];
+    /// Keys of `[coupling]` that it has and that not every method has; [`DEGREE`] among them if a scene chooses it.
+    const KEYS: &'static [Key];
 
     /// Reads them, where the macro steps are `steps`; mistakes are reported, and told by `None`.
     fn read(
@@ -40,6 +42,39 @@ pub(crate) trait Definition: Parameters + Sized {
     /// Degree of the polynomials of exchanged variables where a scene gives none, if it does not follow from that of the multipliers.
     const EXCHANGED_DEGREE: Option<usize> = None;
 }
+
+/// The key of a method whose multipliers have the degree that a scene chooses.
+pub(crate) const DEGREE: Key = Key::new("degree", DEGREES_OF_MULTIPLIERS)
+    .default("1 (explicit: 0; hermite: 2)")
+    .means(
+        "degree of the polynomials of the multipliers: 0 to 3, for hermite 2 to 5, with \
+         [moments](../theory/moments.md) from 3 on. `\"automatic\"`, for hermite, baumgarte and weighted: on \
+         every step the one that the estimates favour, never above the stable ones \
+         ([how](../theory/step-control.md#degrees-that-follow-the-error))",
+    );
+
+/// The key of the degree of exchanged variables.
+pub(crate) const EXCHANGED_DEGREE: Key = Key::new("exchanged_degree", DEGREES)
+    .default(
+        "2, or the degree of the multipliers if that is more; automatic if `degree` is (explicit: 0; hermite: curves of \
+         their own for connected signals)",
+    )
+    .means(
+        "degree of the polynomials of exchanged body motion and connected signals through past values; with \
+         hermite of connected signals only. `\"automatic\"`: baumgarte and weighted, by \
+         estimates of its own",
+    );
+
+const DEGREES_OF_MULTIPLIERS: Takes = Takes::Either(&[
+    Takes::Whole(0, MAX_NODES - 3),
+    Takes::Choice(&[AUTOMATIC_DEGREE]),
+]);
+
+/// Degrees of polynomials.
+pub(crate) const DEGREES: Takes = Takes::Either(&[
+    Takes::Whole(0, MAX_DEGREE),
+    Takes::Choice(&[AUTOMATIC_DEGREE]),
+]);
 
 /// What follows from the parameters of a method.
 pub trait Parameters {

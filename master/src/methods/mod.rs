@@ -13,6 +13,7 @@ mod registry;
 mod saved;
 
 pub use condition::SingularRow;
+pub(crate) use definition::{DEGREE, EXCHANGED_DEGREE};
 pub use definition::{Given, Instability, Lacking, OwnCurves, Parameters};
 pub use method::{Built, Corrected, CouplingMethod, LoadErrors, Order, Reached};
 pub(crate) use registry::Entry;

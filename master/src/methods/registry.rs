@@ -2,6 +2,7 @@
 
 use super::definition::Definition;
 use crate::reading::formula::Steps;
+use crate::reading::key::Key;
 use crate::reading::reader::{Problems, Section};
 
 /// What a scene may know of a method before it has parameters.
@@ -9,7 +10,7 @@ pub(crate) struct Entry<M: 'static> {
     /// Its name in a scene.
     pub name: &'static str,
     /// See [`Definition::KEYS`].
-    pub keys: &'static [&'static str],
+    pub keys: &'static [Key],
     /// See [`Definition::CORRECTS`].
     pub corrects: bool,
     /// See [`Definition::LOWEST_DEGREE`].
@@ -63,6 +64,11 @@ macro_rules! registry {
                 $($($(#[cfg($own)])? registry::Entry::of::<$name>(|section, steps, problems| {
                     <$name as definition::Definition>::read(section, steps, problems).map(Self::$name)
                 }),)*)*
+            ];
+
+            /// Their names.
+            pub(crate) const NAMES: &'static [&'static str] = &[
+                $($($(#[cfg($own)])? <$name as definition::Definition>::NAME,)*)*
             ];
 
             /// Whether it corrects its prediction.

@@ -93,22 +93,12 @@ pub enum SceneErrorKind {
         /// A line that would do.
         example: &'static str,
     },
-    /// A value of the wrong type.
+    /// A value of the wrong type, or outside of its range.
     #[error("`{key}` must be {allowed}, found {found}")]
-    WrongType {
+    WrongValue {
         /// The key.
         key: String,
         /// What it may be.
-        allowed: &'static str,
-        /// The value.
-        found: String,
-    },
-    /// A number outside of its range.
-    #[error("`{key}` must be {allowed}, found {found}")]
-    OutOfRange {
-        /// The key.
-        key: String,
-        /// The range in words.
         allowed: String,
         /// The value.
         found: String,

@@ -5,49 +5,9 @@ use std::fmt;
 use serde::{Serialize, Serializer};
 
 use super::error_kind::SceneErrorKind;
-use super::reader::{Field, NOT_NEGATIVE, POSITIVE, Problems, Range};
+use super::key::{NOT_NEGATIVE, Takes, Unit};
+use super::reader::{Field, Problems};
 use super::written::Value;
-
-/// The power of H that fits the unit of a quantity.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Unit {
-    /// A number without unit: no multiple of H.
-    Plain,
-    /// s: multiples of H.
-    Time,
-    /// s^2: multiples of H^2.
-    TimeSquared,
-    /// kg/s, kg m^2/s: a mass or moment of inertia over H.
-    PerTime,
-    /// kg/s^2, kg m^2/s^2: the same over H^2.
-    PerTimeSquared,
-}
-
-impl Unit {
-    fn symbol(self) -> &'static str {
-        match self {
-            Self::Plain => "",
-            Self::Time => "H",
-            Self::TimeSquared => "H^2",
-            Self::PerTime => "/H",
-            Self::PerTimeSquared => "/H^2",
-        }
-    }
-
-    fn words(self) -> &'static str {
-        match self {
-            Self::Plain => "a number",
-            Self::Time => "a number, or a multiple of the macro step such as \"2H\"",
-            Self::TimeSquared => {
-                "a number, or a multiple of the squared macro step such as \"0.5 H^2\""
-            }
-            Self::PerTime => "a number, or a mass over the macro step such as \"1.3/H\"",
-            Self::PerTimeSquared => {
-                "a number, or a mass over the squared macro step such as \"2.5/H^2\""
-            }
-        }
-    }
-}
 
 /// The macro steps that a formula is taken for, in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,42 +34,25 @@ impl Formula {
         Self { factor, unit }
     }
 
-    /// Reads a number or a multiple of H; it must not be negative.
-    pub(crate) fn read(field: &Field<'_>, unit: Unit, problems: &mut Problems<'_>) -> Option<Self> {
-        Self::read_within(field, unit, &NOT_NEGATIVE, problems)
-    }
-
-    /// Like [`Formula::read`], but zero is out of range.
-    pub(crate) fn read_positive(
-        field: &Field<'_>,
-        unit: Unit,
-        problems: &mut Problems<'_>,
-    ) -> Option<Self> {
-        Self::read_within(field, unit, &POSITIVE, problems)
-    }
-
-    fn read_within(
-        field: &Field<'_>,
-        unit: Unit,
-        range: &Range,
-        problems: &mut Problems<'_>,
-    ) -> Option<Self> {
+    /// Reads a number or a multiple of H of the declared unit and range.
+    pub(crate) fn read(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Self> {
+        let declared = field.declared(|takes| match takes {
+            Takes::Formula(unit, range) => Some((*unit, range)),
+            _ => None,
+        });
+        let (unit, range) = declared.unwrap_or((Unit::Plain, &NOT_NEGATIVE));
         let Value::Text(text) = &field.node.value else {
             if is_number(&field.node.value) {
-                let value = field.number(range, problems)?;
+                let value = field.number(problems)?;
                 return Some(Self::multiple(value, Unit::Plain));
             }
-            return field.wrong_type(unit.words(), problems);
+            return field.refuse(unit.words(), problems);
         };
         match parse_factor(text, unit) {
-            Some(factor) if (range.contains)(factor) => Some(Self::multiple(factor, unit)),
-            Some(_) => field.out_of_range(range.words, problems),
-            None => field.wrong_type(unit.words(), problems),
+            Some(factor) if range.contains(factor) => Some(Self::multiple(factor, unit)),
+            Some(_) => field.refuse(range.words, problems),
+            None => field.refuse(unit.words(), problems),
         }
-    }
-
-    pub(crate) fn unit(self) -> Unit {
-        self.unit
     }
 
     pub(crate) fn is_zero(self) -> bool {

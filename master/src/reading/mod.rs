@@ -2,13 +2,15 @@
 //!
 //! * `text`, `written`, `place`: a TOML file as it is written, with the place of every value;
 //! * `overrides`: values that the command line sets;
-//! * `reader`: sections and fields, checked; `lists`, `names`, `reference`: tables in lists, and names that refer to them;
+//! * `key`: the keys of a table, declared once; `reader`: sections and fields, checked by them;
+//! * `lists`, `names`, `reference`: tables in lists, and names that refer to them;
 //! * `formula`: numbers that may be multiples of the macro step;
 //! * `error`, `error_kind`, `nearest`: mistakes, and what was probably meant.
 
 pub(crate) mod error;
 pub(crate) mod error_kind;
 pub(crate) mod formula;
+pub(crate) mod key;
 pub(crate) mod lists;
 pub(crate) mod names;
 pub(crate) mod nearest;
@@ -22,5 +24,6 @@ pub(crate) mod written;
 pub use error::{SceneError, SceneErrors};
 pub use error_kind::{Names, SceneErrorKind};
 pub use formula::Formula;
+pub use key::{Default, Key, Range, Takes, Unit};
 pub use overrides::{NotAnOverride, Override};
 pub use place::Place;

@@ -26,7 +26,7 @@ impl<'w> Registry<'w> {
             fields: Vec::new(),
         };
         for (position, section) in sections.iter().enumerate() {
-            let field = section.get("name");
+            let field = section.find("name");
             if let Some((field, name)) = field.as_ref().and_then(|f| Some((f, f.peek_text()?))) {
                 let taken = registry.owner_of(name).or_else(|| others?.owner_of(name));
                 match taken {
@@ -63,6 +63,22 @@ impl<'w> Registry<'w> {
 
     pub(crate) fn names(&self) -> impl Iterator<Item = &'w str> {
         self.positions.keys().copied()
+    }
+}
+
+/// Reports every text that an earlier field has as well.
+pub(crate) fn report_repeated(
+    fields: &[Field<'_>],
+    taken_by: &'static str,
+    problems: &mut Problems<'_>,
+) {
+    for (place, field) in fields.iter().enumerate() {
+        let mut earlier = fields[..place].iter();
+        if let Some(name) = field.peek_text()
+            && let Some(first) = earlier.find(|earlier| earlier.peek_text() == Some(name))
+        {
+            report_duplicate(field, name, taken_by, first, problems);
+        }
     }
 }
 

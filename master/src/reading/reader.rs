@@ -2,6 +2,7 @@
 
 use super::error::{SceneError, SceneErrors};
 use super::error_kind::{Names, SceneErrorKind};
+use super::key::{Default, FINITE, Key, Range, Takes};
 use super::nearest::nearest;
 use super::place::Spot;
 use super::written::{Entry, Node, Table, Value, Written};
@@ -39,33 +40,15 @@ impl<'w> Problems<'w> {
     }
 }
 
-/// Numbers that a key may have, and how to say so.
-pub(crate) struct Range {
-    pub(crate) words: &'static str,
-    pub(crate) contains: fn(f64) -> bool,
-}
-
-pub(crate) const FINITE: Range = Range {
-    words: "a finite number",
-    contains: |_| true,
-};
-pub(crate) const POSITIVE: Range = Range {
-    words: "a finite number greater than 0",
-    contains: |value| value > 0.0,
-};
-pub(crate) const NOT_NEGATIVE: Range = Range {
-    words: "a finite number, 0 or greater",
-    contains: |value| value >= 0.0,
-};
-
 /// Integers beyond this size are not all numbers of double precision.
 const LARGEST_EXACT_INTEGER: u64 = 1 << 53;
 
-/// A value with its key.
+/// A value with its key, and what it may be.
 #[derive(Clone)]
 pub(crate) struct Field<'w> {
     pub(crate) key: String,
     pub(crate) node: &'w Node,
+    takes: &'static Takes,
 }
 
 impl<'w> Field<'w> {
@@ -73,22 +56,9 @@ impl<'w> Field<'w> {
         problems.report(&self.node.spot, kind);
     }
 
-    pub(crate) fn wrong_type<T>(
-        &self,
-        allowed: &'static str,
-        problems: &mut Problems<'_>,
-    ) -> Option<T> {
-        let kind = SceneErrorKind::WrongType {
-            key: self.key.clone(),
-            allowed,
-            found: self.node.value.to_string(),
-        };
-        self.report(kind, problems);
-        None
-    }
-
-    pub(crate) fn out_of_range<T>(&self, allowed: &str, problems: &mut Problems<'_>) -> Option<T> {
-        let kind = SceneErrorKind::OutOfRange {
+    /// Reports that the value is not what is allowed.
+    pub(crate) fn refuse<T>(&self, allowed: &str, problems: &mut Problems<'_>) -> Option<T> {
+        let kind = SceneErrorKind::WrongValue {
             key: self.key.clone(),
             allowed: allowed.to_owned(),
             found: self.node.value.to_string(),
@@ -97,28 +67,51 @@ impl<'w> Field<'w> {
         None
     }
 
-    /// A finite number of the given range.
-    pub(crate) fn number(&self, range: &Range, problems: &mut Problems<'_>) -> Option<f64> {
+    /// What `choose` takes of what the value may be.
+    pub(crate) fn declared<T>(&self, choose: impl FnMut(&'static Takes) -> Option<T>) -> Option<T> {
+        self.takes.alternatives().iter().find_map(choose)
+    }
+
+    /// A number of the declared range.
+    pub(crate) fn number(&self, problems: &mut Problems<'_>) -> Option<f64> {
+        let range = self.declared(|takes| match takes {
+            Takes::Number(range) | Takes::Formula(_, range) => Some(range),
+            _ => None,
+        });
+        self.number_within(range.unwrap_or(&FINITE), problems)
+    }
+
+    /// A number of a range that depends on other keys.
+    pub(crate) fn number_within(&self, range: &Range, problems: &mut Problems<'_>) -> Option<f64> {
         let value = match self.node.value {
             Value::Float(value) => value,
             Value::Integer(value) if value.unsigned_abs() <= LARGEST_EXACT_INTEGER => value as f64,
             Value::Integer(_) | Value::Oversized(_) => {
-                return self.out_of_range(
+                return self.refuse(
                     "at most 2^53 in size if written without a decimal point",
                     problems,
                 );
             }
-            _ => return self.wrong_type(range.words, problems),
+            _ => return self.refuse(range.words, problems),
         };
-        if value.is_finite() && (range.contains)(value) {
-            Some(value)
-        } else {
-            self.out_of_range(range.words, problems)
+        match range.contains(value) {
+            true => Some(value),
+            false => self.refuse(range.words, problems),
         }
     }
 
-    /// A whole number from `least` to `most`.
-    pub(crate) fn whole(
+    /// A whole number of the declared range.
+    pub(crate) fn whole(&self, problems: &mut Problems<'_>) -> Option<usize> {
+        let range = self.declared(|takes| match takes {
+            Takes::Whole(least, most) => Some((*least, *most)),
+            _ => None,
+        });
+        let (least, most) = range.unwrap_or((0, usize::MAX));
+        self.whole_within(least, most, problems)
+    }
+
+    /// A whole number from `least` to `most`, which depend on other keys.
+    pub(crate) fn whole_within(
         &self,
         least: usize,
         most: usize,
@@ -128,21 +121,21 @@ impl<'w> Field<'w> {
             Value::Integer(value) => usize::try_from(*value)
                 .ok()
                 .filter(|value| (least..=most).contains(value))
-                .or_else(|| self.out_of_range(&whole_range(least, most), problems)),
-            Value::Oversized(_) => self.out_of_range(&whole_range(least, most), problems),
-            _ => self.wrong_type("a whole number", problems),
+                .or_else(|| self.refuse(&whole_range(least, most), problems)),
+            Value::Oversized(_) => self.refuse(&whole_range(least, most), problems),
+            _ => self.refuse("a whole number", problems),
         }
     }
 
     pub(crate) fn text(&self, problems: &mut Problems<'_>) -> Option<&'w str> {
         self.peek_text()
-            .or_else(|| self.wrong_type("a text in quotes", problems))
+            .or_else(|| self.refuse("a text in quotes", problems))
     }
 
     pub(crate) fn flag(&self, problems: &mut Problems<'_>) -> Option<bool> {
         match self.node.value {
             Value::Flag(flag) => Some(flag),
-            _ => self.wrong_type("true or false", problems),
+            _ => self.refuse("true or false", problems),
         }
     }
 
@@ -154,20 +147,27 @@ impl<'w> Field<'w> {
         }
     }
 
+    /// A text with at least one letter.
+    pub(crate) fn filled_text(&self, problems: &mut Problems<'_>) -> Option<String> {
+        match self.text(problems)? {
+            "" => self.refuse("a text that is not empty", problems),
+            text => Some(text.to_owned()),
+        }
+    }
+
     /// One or more texts in a list.
-    pub(crate) fn texts(
-        &self,
-        allowed: &'static str,
-        problems: &mut Problems<'_>,
-    ) -> Option<Vec<Field<'w>>> {
-        let fields = self.items(allowed, problems)?;
-        let all_text = fields
-            .iter()
-            .all(|field| matches!(field.node.value, Value::Text(_)));
+    pub(crate) fn texts(&self, problems: &mut Problems<'_>) -> Option<Vec<Field<'w>>> {
+        let fields = self.items(problems)?;
+        let all_text = fields.iter().all(|field| field.peek_text().is_some());
         if fields.is_empty() || !all_text {
-            return self.wrong_type(allowed, problems);
+            return self.refuse(&self.list().1, problems);
         }
         Some(fields)
+    }
+
+    /// All numbers of a list, each of the declared range.
+    pub(crate) fn numbers(&self, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
+        collect(&self.items(problems)?, |item| item.number(problems))
     }
 
     /// The choice that a text stands for.
@@ -205,19 +205,26 @@ impl<'w> Field<'w> {
         None
     }
 
-    pub(crate) fn items(
-        &self,
-        allowed: &'static str,
-        problems: &mut Problems<'_>,
-    ) -> Option<Vec<Field<'w>>> {
+    pub(crate) fn items(&self, problems: &mut Problems<'_>) -> Option<Vec<Field<'w>>> {
+        let (takes, words) = self.list();
         let Value::List(items) = &self.node.value else {
-            return self.wrong_type(allowed, problems);
+            return self.refuse(&words, problems);
         };
         let field = |(i, node)| Field {
             key: format!("{}[{i}]", self.key),
             node,
+            takes,
         };
         Some(items.iter().enumerate().map(field).collect())
+    }
+
+    /// What the items of a list may be, and what messages call the list.
+    pub(crate) fn list(&self) -> (&'static Takes, String) {
+        let list = self.declared(|takes| match takes {
+            Takes::List(item, words) => Some((*item, (*words).to_owned())),
+            _ => None,
+        });
+        list.unwrap_or_else(|| (&Takes::Any, format!("tables headed [[{}]]", self.key)))
     }
 
     pub(crate) fn section(&self, problems: &mut Problems<'_>) -> Option<Section<'w>> {
@@ -227,7 +234,7 @@ impl<'w> Field<'w> {
                 spot: &self.node.spot,
                 table,
             }),
-            _ => self.wrong_type("a table", problems),
+            _ => self.refuse("a table", problems),
         }
     }
 }
@@ -246,6 +253,32 @@ fn whole_range(least: usize, most: usize) -> String {
     }
 }
 
+/// All or nothing, but every element is read.
+pub(crate) fn collect<S, T>(items: &[S], read: impl FnMut(&S) -> Option<T>) -> Option<Vec<T>> {
+    let read: Vec<Option<T>> = items.iter().map(read).collect();
+    read.into_iter().collect()
+}
+
+/// The choice that a text stands for; the first one where it is absent.
+pub(crate) fn choice<T: Copy>(
+    field: Option<Field<'_>>,
+    choices: &[(&str, T)],
+    problems: &mut Problems<'_>,
+) -> Option<T> {
+    match field {
+        Some(field) => field.choice(choices, problems),
+        None => choices.first().map(|(_, choice)| *choice),
+    }
+}
+
+/// Absent is `Some(None)`; `None` is a mistake that has been reported.
+pub(crate) fn given<'w, T>(
+    field: Option<Field<'w>>,
+    read: impl FnOnce(&Field<'w>) -> Option<T>,
+) -> Option<Option<T>> {
+    field.map_or(Some(None), |field| read(&field).map(Some))
+}
+
 /// A table with its key.
 #[derive(Clone)]
 pub(crate) struct Section<'w> {
@@ -255,13 +288,16 @@ pub(crate) struct Section<'w> {
 }
 
 impl<'w> Section<'w> {
-    /// The whole scene.
-    pub(crate) fn root(written: &'w Written, table: &'w Table) -> Self {
-        Self {
+    /// The whole file.
+    pub(crate) fn root(written: &'w Written) -> Option<Self> {
+        let Value::Table(table) = &written.root.value else {
+            return None;
+        };
+        Some(Self {
             key: String::new(),
             spot: &written.root.spot,
             table,
-        }
+        })
     }
 
     pub(crate) fn key_of(&self, key: &str) -> String {
@@ -272,12 +308,42 @@ impl<'w> Section<'w> {
         }
     }
 
-    pub(crate) fn get(&self, key: &str) -> Option<Field<'w>> {
+    /// The fields of a table that has these keys only; the others are reported, and those that must be there and are not.
+    pub(crate) fn read<const N: usize>(
+        &self,
+        keys: &'static [Key; N],
+        problems: &mut Problems<'_>,
+    ) -> [Option<Field<'w>>; N] {
+        self.allow_only(keys, problems);
+        self.fields(keys, problems)
+    }
+
+    /// The same of a table that has others as well.
+    pub(crate) fn fields<const N: usize>(
+        &self,
+        keys: &'static [Key; N],
+        problems: &mut Problems<'_>,
+    ) -> [Option<Field<'w>>; N] {
+        keys.each_ref().map(|key| match key.default {
+            Default::None => self.require(key, problems),
+            _ => self.get(key),
+        })
+    }
+
+    pub(crate) fn get(&self, key: &'static Key) -> Option<Field<'w>> {
+        Some(Field {
+            takes: &key.takes,
+            ..self.find(key.name)?
+        })
+    }
+
+    /// A value whatever it may be.
+    pub(super) fn find(&self, key: &str) -> Option<Field<'w>> {
         self.table.get(key).map(|entry| self.field(key, entry))
     }
 
     /// All entries of a table whose keys the scene's author chooses.
-    pub(crate) fn fields(&self) -> impl Iterator<Item = (&'w str, Field<'w>)> {
+    pub(crate) fn entries(&self) -> impl Iterator<Item = (&'w str, Field<'w>)> {
         self.table
             .iter()
             .map(|(key, entry)| (key.as_str(), self.field(key, entry)))
@@ -287,22 +353,22 @@ impl<'w> Section<'w> {
         Field {
             key: self.key_of(key),
             node: &entry.node,
+            takes: &Takes::Any,
         }
     }
 
-    /// A field that must be there; `example` is a line that would do.
+    /// A field that must be there.
     pub(crate) fn require(
         &self,
-        key: &'static str,
-        example: &'static str,
+        key: &'static Key,
         problems: &mut Problems<'_>,
     ) -> Option<Field<'w>> {
         let field = self.get(key);
         if field.is_none() {
             let kind = SceneErrorKind::MissingKey {
-                key,
+                key: key.name,
                 section: self.title(problems),
-                example,
+                example: key.example,
             };
             problems.report(self.spot, kind);
         }
@@ -310,9 +376,9 @@ impl<'w> Section<'w> {
     }
 
     /// Reports every key that is not among the allowed ones.
-    pub(crate) fn allow_only(&self, allowed: &[&str], problems: &mut Problems<'_>) {
+    pub(crate) fn allow_only(&self, allowed: &[Key], problems: &mut Problems<'_>) {
         for (key, entry) in self.table {
-            if !allowed.contains(&key.as_str()) {
+            if allowed.iter().all(|own| own.name != key) {
                 self.report_unknown_key(key, entry, allowed, problems);
             }
         }
@@ -322,14 +388,15 @@ impl<'w> Section<'w> {
         &self,
         key: &str,
         entry: &Entry,
-        allowed: &[&str],
+        allowed: &[Key],
         problems: &mut Problems<'_>,
     ) {
+        let names: Vec<&str> = allowed.iter().map(|own| own.name).collect();
         let kind = SceneErrorKind::UnknownKey {
             key: key.to_owned(),
             section: self.title(problems),
-            allowed: Names::from(allowed),
-            nearest: nearest(key, allowed.iter().copied()),
+            allowed: Names::from(names.as_slice()),
+            nearest: nearest(key, names),
         };
         problems.report(&entry.key_spot, kind);
     }

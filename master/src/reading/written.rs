@@ -11,6 +11,7 @@ use toml::de::{DeInteger, DeString, DeTable, DeValue};
 use super::error::{SceneError, SceneErrors};
 use super::error_kind::SceneErrorKind;
 use super::place::{Place, Source, Spot};
+use super::text::text_of;
 
 /// The entries of a table by key.
 pub(crate) type Table = BTreeMap<String, Entry>;
@@ -216,6 +217,14 @@ impl Written {
             }
         }
         Err(reported)
+    }
+
+    /// Whether the file at `path` has a table of this name at the top; false if it cannot be read.
+    pub(crate) fn has_table(path: &Path, name: &str) -> bool {
+        let text = text_of(path, "").ok();
+        let written = text.and_then(|text| Self::parse(&text, "", "").ok());
+        let root = written.map(|written| written.root.value);
+        matches!(root, Some(Value::Table(table)) if table.contains_key(name))
     }
 
     /// The folder of the file, from which it counts its paths.

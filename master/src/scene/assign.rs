@@ -5,6 +5,7 @@ use std::sync::Arc;
 use toml::de::DeValue;
 
 use super::coupling;
+use super::step_control::MACRO_STEP;
 use crate::reading::error::{SceneError, SceneErrors};
 use crate::reading::error_kind::{Names, SceneErrorKind};
 use crate::reading::nearest::nearest;
@@ -79,7 +80,7 @@ impl Written {
         if let Value::Table(root) = &mut self.root.value
             && let Some(Value::Table(table)) = root.get_mut("coupling").map(|e| &mut e.node.value)
         {
-            table.retain(|key, _| key == coupling::MACRO_STEP);
+            table.retain(|key, _| key == MACRO_STEP.name);
         }
     }
 

@@ -1,36 +1,80 @@
 //! Reads `[coupling]`: method, parameters, degree and macro step.
 
-use super::degree::{self, Degrees};
+use super::degree;
 use super::resolved::{Coupling, Degree, Increment, Iterations, Jacobian, Loads, Otherwise};
-use super::step_control::{self, MacroSteps};
-use crate::methods::{Entry, Method};
+use super::step_control::{self, MACRO_STEP, MacroSteps, TOLERANCE, VARIABLE};
+use crate::methods::{DEGREE, EXCHANGED_DEGREE, Entry, Method};
 use crate::reading::error_kind::{Names, SceneErrorKind};
-use crate::reading::reader::{Field, POSITIVE, Problems, Section};
+use crate::reading::key::{Key, POSITIVE, Takes, texts};
+use crate::reading::reader::{Field, Problems, Section, choice, given};
 use crate::reading::written::Value;
-
-/// Name of the macro step.
-pub(super) const MACRO_STEP: &str = "macro_step";
 
 /// The key whose override changes which other keys there are.
 pub(super) const METHOD_KEY: &str = "coupling.method";
 
 /// Keys that every method has.
-const COMMON: [&str; 5] = [
-    "method",
-    "exchanged_degree",
-    "loads",
-    "macro_step",
-    "increment",
+const COMMON: [Key; 5] = [
+    Key::new("method", Takes::Choice(Method::NAMES))
+        .required("method = \"baumgarte\"")
+        .means("what they compute: [theory](../theory/README.md)"),
+    EXCHANGED_DEGREE,
+    Key::new("loads", Takes::Choice(&texts(&LOADS)))
+        .default_first()
+        .means(
+            "who evaluates a load whose direction turns with the bodies: `\"worker\"`, at the \
+             pose that its body has at every instant; `\"master\"`, which sends force and \
+             moment as polynomials; `\"automatic\"`: the worker if it can, but with `jacobian = \
+             \"reuse\"` the master for hermite, and for baumgarte and weighted where \
+             `tolerance` limits the error",
+        ),
+    MACRO_STEP,
+    Key::new(
+        "increment",
+        Takes::Either(&[Takes::Number(POSITIVE), Takes::Choice(&texts(&INCREMENTS))]),
+    )
+    .default("`\"automatic\"`")
+    .means(
+        "eps: finite differences use eps max(1, abs(u)); `\"derivatives\"`: none where a \
+         worker offers directional derivatives (`linchpin describe` tells), otherwise \
+         automatic",
+    ),
 ];
 
 /// Keys that every method with a corrector has.
-const CORRECTED: [&str; 6] = [
-    "jacobian",
-    "iterations",
-    "tolerance",
-    "absolute_tolerance",
-    "least_step",
-    "greatest_step",
+const CORRECTED: [Key; 6] = [
+    JACOBIAN,
+    ITERATIONS,
+    TOLERANCE,
+    VARIABLE[0],
+    VARIABLE[1],
+    VARIABLE[2],
+];
+const JACOBIAN: Key = Key::new("jacobian", Takes::Choice(&texts(&JACOBIANS)))
+    .default_first()
+    .means(
+        "columns of the coupling Jacobian are integrated in every macro step, or stay in \
+         use as long as they serve: `\"reuse\"`",
+    );
+const ITERATIONS: Key = Key::new("iterations", Takes::Table(|| PASSES.to_vec()))
+    .default("one correction")
+    .means(
+        "`{ most = 10, tolerance = 1e-9, otherwise = \"warn\" }`, corrections of a macro \
+         step until they change less than the tolerance",
+    );
+const PASSES: [Key; 3] = [
+    Key::new("most", Takes::Whole(1, MOST_PASSES))
+        .default_number(PASSES_BY_DEFAULT as f64)
+        .means("so many corrections after the first one at most"),
+    Key::new("tolerance", Takes::Number(POSITIVE))
+        .default_number(TOLERANCE_BY_DEFAULT)
+        .means("the change below which a correction is the last one"),
+    Key::new("otherwise", Takes::Choice(&texts(&OTHERWISE)))
+        .default_first()
+        .means(
+            "a step that has not converged is counted (`\"warn\"`), ends the run with t, H, the \
+             variable and the rate (`\"fail\"`) or, with `coupling.tolerance` only, is repeated \
+             with a shorter macro step (`\"reject\"`)",
+        ),
 ];
 
 /// Increments that are not given as a number.
@@ -62,11 +106,18 @@ const OTHERWISE: [(&str, Otherwise); 3] = [
 /// Corrections that have not converged after so many passes do not converge.
 const MOST_PASSES: usize = 1000;
 
+const PASSES_BY_DEFAULT: u32 = 10;
+const TOLERANCE_BY_DEFAULT: f64 = 1e-9;
+
 impl Entry<Method> {
     /// Keys that not every method has.
-    fn parameters(&self) -> impl Iterator<Item = &'static str> {
-        let corrected: &[&str] = if self.corrects { &CORRECTED } else { &[] };
+    fn parameters(&self) -> impl Iterator<Item = Key> {
+        let corrected: &[Key] = if self.corrects { &CORRECTED } else { &[] };
         self.keys.iter().chain(corrected).copied()
+    }
+
+    fn has(&self, key: &str) -> bool {
+        self.parameters().any(|own| own.name == key)
     }
 
     fn default_degree(&self) -> Degree {
@@ -80,18 +131,7 @@ impl Entry<Method> {
             (None, Degree::Fixed(degree)) => Degree::Fixed(self.highest_degree.min(degree.max(2))),
         }
     }
-
-    fn degrees(&self) -> Degrees {
-        Degrees {
-            method: self.name,
-            highest: self.highest_degree,
-            may_change: self.may_change_degree,
-        }
-    }
 }
-
-/// The key of the degree.
-const DEGREE: &str = "degree";
 
 /// True for a parameter that means nothing where one method takes the place of another: of those that both have the degree, if they count
 /// it from different ones.
@@ -99,22 +139,30 @@ pub(super) fn is_set_aside(key: &str, before: Option<&str>, method: &str) -> boo
     let of = |method: &str| Method::ALL.iter().find(|entry| entry.name == method);
     let lowest = |method: &str| of(method).map(|entry| entry.lowest_degree);
     let counts_otherwise = || before.is_some_and(|before| lowest(before) != lowest(method));
-    belongs_to_others(key, method) || key == DEGREE && counts_otherwise()
+    belongs_to_others(key, method) || key == DEGREE.name && counts_otherwise()
 }
 
 /// True for a parameter that some methods have, but not the one of this name.
 fn belongs_to_others(key: &str, method: &str) -> bool {
     let chosen = Method::ALL.iter().find(|entry| entry.name == method);
-    chosen.is_some_and(|entry| entry.parameters().all(|own| own != key)) && !owners(key).is_empty()
+    chosen.is_some_and(|entry| !entry.has(key)) && !methods_with(key).is_empty()
 }
 
-/// The methods that have a parameter.
-fn owners(key: &str) -> Vec<&'static str> {
-    Method::ALL
-        .iter()
-        .filter(|entry| entry.parameters().any(|own| own == key))
-        .map(|entry| entry.name)
-        .collect()
+/// The methods that have a key of `[coupling]` that not every method has; none for those that all have.
+pub fn methods_with(key: &str) -> Vec<&'static str> {
+    let owners = Method::ALL.iter().filter(|entry| entry.has(key));
+    owners.map(|entry| entry.name).collect()
+}
+
+/// Every key that some method has.
+pub(super) fn keys_of_all_methods() -> Vec<Key> {
+    let mut all = COMMON.to_vec();
+    for key in Method::ALL.iter().flat_map(Entry::parameters) {
+        if all.iter().all(|earlier| earlier.name != key.name) {
+            all.push(key);
+        }
+    }
+    all
 }
 
 pub(super) fn read(
@@ -124,48 +172,36 @@ pub(super) fn read(
 ) -> Option<Coupling> {
     let choices: Vec<(&str, &Entry<Method>)> =
         Method::ALL.iter().map(|own| (own.name, own)).collect();
-    let kind = section
-        .require("method", "method = \"baumgarte\"", problems)
-        .and_then(|field| field.choice(&choices, problems));
+    let [method, exchanged_degree, loads, _, increment] = section.fields(&COMMON, problems);
+    let [jacobian, iterations, ..] = section.fields(&CORRECTED, problems);
+    let kind = method.and_then(|field| field.choice(&choices, problems));
     check_keys(section, kind, problems);
     let steps = step_control::read(section, duration, problems);
-    let increment = section
-        .get("increment")
-        .map_or(Some(Increment::Automatic), |field| {
-            read_increment(&field, problems)
-        });
+    let increment = match increment {
+        Some(field) => read_increment(&field, problems),
+        None => Some(Increment::Automatic),
+    };
     let range = steps.as_ref().map(MacroSteps::range);
     let method = kind.and_then(|kind| (kind.read)(section, range, problems));
     let own_curves = method.and_then(|method| method.parameters().own_curves());
-    let degree = match (section.get(DEGREE), kind, own_curves) {
+    let degree = match (section.get(&DEGREE), kind, own_curves) {
         (_, _, Some(own)) if own.follow => Some(Degree::Automatic),
         (_, _, Some(own)) => Some(Degree::Fixed(own.multipliers)),
         // A method that counts it otherwise has read it.
         (_, Some(kind), None) if kind.lowest_degree > 0 => None,
-        (Some(field), ..) => degree::read(&field, kind.map(Entry::degrees), problems),
+        (Some(field), ..) => degree::read(&field, kind, problems),
         (None, kind, _) => kind.map(Entry::default_degree),
     };
-    let exchanged_degree = match (section.get("exchanged_degree"), kind, degree) {
-        (Some(field), ..) => degree::read(&field, kind.map(Entry::degrees), problems),
+    let exchanged_degree = match (exchanged_degree, kind, degree) {
+        (Some(field), ..) => degree::read(&field, kind, problems),
         (None, Some(kind), Some(degree)) => Some(kind.default_exchanged_degree(degree)),
         (None, ..) => None,
     };
-    let loads = section
-        .get("loads")
-        .map_or(Some(Loads::Automatic), |field| {
-            field.choice(&LOADS, problems)
-        });
-    let jacobian = match section.get("jacobian") {
-        Some(field) => field.choice(&JACOBIANS, problems),
-        None => Some(Jacobian::Reuse),
-    };
-    let iterations = match section.get("iterations") {
-        Some(field) => field
-            .section(problems)
-            .and_then(|section| read_iterations(&section, steps.as_ref(), problems))
-            .map(Some),
-        None => Some(None),
-    };
+    let loads = choice(loads, &LOADS, problems);
+    let jacobian = choice(jacobian, &JACOBIANS, problems);
+    let iterations = given(iterations, |field| {
+        read_iterations(&field.section(problems)?, steps.as_ref(), problems)
+    });
     let MacroSteps { first, control } = steps?;
     Some(Coupling {
         method: method?,
@@ -182,13 +218,13 @@ pub(super) fn read(
 
 fn check_keys(section: &Section<'_>, kind: Option<&Entry<Method>>, problems: &mut Problems<'_>) {
     let Some(kind) = kind else {
-        return check_keys_of_all_methods(section, problems);
+        return section.allow_only(&keys_of_all_methods(), problems);
     };
     let mut allowed = COMMON.to_vec();
     allowed.extend(kind.parameters());
     for (key, entry) in section.table {
-        let owners = owners(key);
-        if allowed.contains(&key.as_str()) {
+        let owners = methods_with(key);
+        if allowed.iter().any(|own| own.name == key) {
             continue;
         }
         if owners.is_empty() {
@@ -204,34 +240,20 @@ fn check_keys(section: &Section<'_>, kind: Option<&Entry<Method>>, problems: &mu
     }
 }
 
-fn check_keys_of_all_methods(section: &Section<'_>, problems: &mut Problems<'_>) {
-    let mut allowed = COMMON.to_vec();
-    for key in Method::ALL.iter().flat_map(Entry::parameters) {
-        if !allowed.contains(&key) {
-            allowed.push(key);
-        }
-    }
-    section.allow_only(&allowed, problems);
-}
-
 fn read_iterations(
     section: &Section<'_>,
     steps: Option<&MacroSteps>,
     problems: &mut Problems<'_>,
 ) -> Option<Iterations> {
-    section.allow_only(&["most", "tolerance", "otherwise"], problems);
-    let most = section
-        .get("most")
-        .map_or(Some(10), |field| field.whole(1, MOST_PASSES, problems));
-    let tolerance = section
-        .get("tolerance")
-        .map_or(Some(1e-9), |field| field.number(&POSITIVE, problems));
-    let otherwise = match section.get("otherwise") {
+    let [most, tolerance, otherwise] = section.read(&PASSES, problems);
+    let most = given(most, |field| u32::try_from(field.whole(problems)?).ok());
+    let tolerance = tolerance.map_or(Some(TOLERANCE_BY_DEFAULT), |field| field.number(problems));
+    let otherwise = match otherwise {
         Some(field) => read_otherwise(&field, steps, problems),
         None => Some(Otherwise::Warn),
     };
     Some(Iterations {
-        most: u32::try_from(most?).ok()?,
+        most: most?.unwrap_or(PASSES_BY_DEFAULT),
         tolerance: tolerance?,
         otherwise: otherwise?,
     })
@@ -255,6 +277,6 @@ fn read_otherwise(
 fn read_increment(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Increment> {
     match &field.node.value {
         Value::Text(_) => field.choice(&INCREMENTS, problems),
-        _ => field.number(&POSITIVE, problems).map(Increment::Relative),
+        _ => field.number(problems).map(Increment::Relative),
     }
 }

@@ -2,25 +2,66 @@
 
 use super::resolved::{Geometry, Joint, JointKind, Side};
 use crate::reading::error_kind::SceneErrorKind;
-use crate::reading::lists::collect;
+use crate::reading::key::{FINITE, Key, Takes, texts};
 use crate::reading::names::Registry;
-use crate::reading::reader::{FINITE, Field, Problems, Section};
+use crate::reading::reader::{Field, Problems, Section, given};
 use crate::reading::reference::find_name;
 use crate::reading::written::Value;
 
-const KEYS: [&str; 11] = [
-    "name",
-    "kind",
-    "a",
-    "b",
-    "point_a",
-    "point_b",
-    "axis_a",
-    "axis_b",
-    "attitude",
-    "angle",
-    "multiplier",
+pub(super) const KEYS: [Key; 11] = [
+    Key::new("name", Takes::Name)
+        .required("name = \"link\"")
+        .means("names the result columns `NAME.lambda`, `NAME.residual.*`"),
+    Key::new("kind", Takes::Choice(&texts(&KINDS)))
+        .required("kind = \"rigid-link\"")
+        .means("see below"),
+    Key::new("a", Takes::Text)
+        .required("a = \"mass1\"")
+        .means(SIDE),
+    Key::new("b", Takes::Text)
+        .required("b = \"mass2\"")
+        .means(SIDE),
+    Key::new("point_a", VECTOR)
+        .default("the marker")
+        .means(POINT),
+    Key::new("point_b", VECTOR)
+        .default("the marker")
+        .means(POINT),
+    Key::new("axis_a", VECTOR)
+        .default("required where it has one")
+        .means(AXIS),
+    Key::new("axis_b", VECTOR)
+        .default("required where it has one")
+        .means(AXIS),
+    Key::new("attitude", VECTOR)
+        .default("`[1, 0, 0, 0]`")
+        .means(
+            "orientation, translational, weld in space: attitude of marker a in the axes of \
+             marker b, a quaternion `[w, x, y, z]`",
+        ),
+    Key::new("angle", Takes::Number(FINITE))
+        .default("0")
+        .means("the same in the plane: angle of a minus angle of b, rad"),
+    Key::new(
+        "multiplier",
+        Takes::Either(&[
+            Takes::Number(FINITE),
+            Takes::List(&Takes::Number(FINITE), "a number or a list of numbers"),
+        ]),
+    )
+    .default("computed")
+    .means(
+        "lambda at the start, one for each condition of the joint; all joints give it, or \
+         none",
+    ),
 ];
+const VECTOR: Takes = Takes::List(
+    &Takes::Number(FINITE),
+    "a list of numbers such as [0.5, 0.0]",
+);
+const SIDE: &str = "`\"SUBSYSTEM\"`, or `\"SUBSYSTEM.MARKER\"` if it has several markers";
+const POINT: &str = "point of the joint in the axes of its marker, m";
+const AXIS: &str = "axis of the joint in the axes of its marker, of any length";
 const KINDS: [(&str, JointKind); 12] = [
     ("rigid-link", JointKind::RigidLink),
     ("atpoint", JointKind::AtPoint),
@@ -41,27 +82,40 @@ pub(super) fn read(
     subsystems: &Registry<'_>,
     problems: &mut Problems<'_>,
 ) -> Option<Joint> {
-    section.allow_only(&KEYS, problems);
-    let name = section
-        .require("name", "name = \"link\"", problems)
-        .and_then(|field| field.name(problems));
-    let kind = section
-        .require("kind", "kind = \"rigid-link\"", problems)
-        .and_then(|field| field.choice(&KINDS, problems));
-    let a = section
-        .require("a", "a = \"mass1\"", problems)
-        .and_then(|field| read_side(&field, subsystems, problems));
-    let b_field = section.require("b", "b = \"mass2\"", problems);
+    let [
+        name,
+        kind,
+        a,
+        b_field,
+        point_a,
+        point_b,
+        axis_a,
+        axis_b,
+        attitude,
+        angle,
+        multiplier,
+    ] = section.read(&KEYS, problems);
+    let name = name.and_then(|field| field.name(problems));
+    let kind = kind.and_then(|field| field.choice(&KINDS, problems));
+    let a = a.and_then(|field| read_side(&field, subsystems, problems));
     let b = b_field
         .as_ref()
         .and_then(|field| read_side(field, subsystems, problems));
-    let multiplier = match section.get("multiplier") {
-        Some(field) => read_multipliers(&field, problems).map(Some),
-        None => Some(None),
+    let multiplier = given(multiplier, |field| match field.node.value {
+        Value::List(_) => field.numbers(problems),
+        _ => field.number(problems).map(|number| vec![number]),
+    });
+    let [point_a, point_b, axis_a, axis_b, attitude] = [point_a, point_b, axis_a, axis_b, attitude]
+        .map(|field| given(field, |field| field.numbers(problems)));
+    let angle = given(angle, |field| field.number(problems));
+    let geometry = Geometry {
+        points: [point_a?, point_b?],
+        axes: [axis_a?, axis_b?],
+        attitude: attitude?,
+        angle: angle?,
     };
-    let geometry = read_geometry(section, problems);
     let joint = Joint {
-        geometry: geometry?,
+        geometry,
         name: name?.to_owned(),
         kind: kind?,
         a: a?,
@@ -77,42 +131,6 @@ pub(super) fn read(
         return None;
     }
     Some(joint)
-}
-
-fn read_geometry(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Geometry> {
-    let mut list = |key: &str| match section.get(key) {
-        Some(field) => read_vector(&field, problems).map(Some),
-        None => Some(None),
-    };
-    let points = [list("point_a"), list("point_b")];
-    let axes = [list("axis_a"), list("axis_b")];
-    let attitude = list("attitude");
-    let angle = match section.get("angle") {
-        Some(field) => field.number(&FINITE, problems).map(Some),
-        None => Some(None),
-    };
-    let [point_a, point_b] = points;
-    let [axis_a, axis_b] = axes;
-    Some(Geometry {
-        points: [point_a?, point_b?],
-        axes: [axis_a?, axis_b?],
-        attitude: attitude?,
-        angle: angle?,
-    })
-}
-
-fn read_vector(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
-    let components = field.items("a list of numbers such as [0.5, 0.0]", problems)?;
-    collect(&components, |component| component.number(&FINITE, problems))
-}
-
-/// One number, or a list of them.
-fn read_multipliers(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
-    if !matches!(field.node.value, Value::List(_)) {
-        return field.number(&FINITE, problems).map(|number| vec![number]);
-    }
-    let fields = field.items("a number or a list of numbers", problems)?;
-    collect(&fields, |field| field.number(&FINITE, problems))
 }
 
 fn read_side(

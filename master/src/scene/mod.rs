@@ -27,9 +27,12 @@ mod variants;
 mod whole;
 
 pub use crate::reading::{
-    Formula, Names, NotAnOverride, Override, Place, SceneError, SceneErrorKind, SceneErrors,
+    Default, Formula, Key, Names, NotAnOverride, Override, Place, Range, SceneError,
+    SceneErrorKind, SceneErrors, Takes, Unit,
 };
+pub use coupling::methods_with;
 pub use load::{load, parse};
+pub use resolve::SCENE_KEYS;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, Increment, Index,
     Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
@@ -37,13 +40,14 @@ pub use resolved::{
     Subsystem, Variant,
 };
 pub use spectrum::{
-    RegionPoint, SpectrumCurve, SpectrumFile, SpectrumRegion, SpectrumScheme, is_spectrum,
-    load_spectrum, parse_spectrum,
+    RegionPoint, SPECTRUM_KEYS, SpectrumCurve, SpectrumFile, SpectrumRegion, SpectrumScheme,
+    is_spectrum, load_spectrum, parse_spectrum,
 };
 pub(crate) use stability_rules::highest_stable_degree;
 pub use stability_rules::{Warning, warnings};
 pub use study::{
-    Measure, Settings, StudyFile, StudyScene, StudySetting, is_study, load_study, parse_study,
+    Measure, STUDY_KEYS, Settings, StudyFile, StudyScene, StudySetting, is_study, load_study,
+    parse_study,
 };
 pub use subsystem::is_worker_address;
 pub use whole::Scene;

@@ -4,25 +4,31 @@ use std::path::Path;
 
 use super::resolved::Monolithic;
 use crate::reading::error_kind::SceneErrorKind;
+use crate::reading::key::{Key, Takes};
 use crate::reading::reader::{Field, Problems, Section};
+
+pub(super) const KEYS: [Key; 2] = [
+    Key::new("scene", Takes::Text)
+        .required("scene = \"monolithic/oscillator.toml\"")
+        .means(
+            "a scene file, from the folder of this one, that has the same system in one \
+             subsystem",
+        ),
+    Key::new("columns", Takes::Open(&[]))
+        .required("columns = { \"mass1.x\" = \"mass.x\" }")
+        .means("result columns of this scene, or sums of them, and what they are in that one"),
+];
 
 const SUM: &str =
     "result columns such as \"mass1.x\", or sums of them such as \"a.energy + b.energy\"";
 
 pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Monolithic> {
-    section.allow_only(&["scene", "columns"], problems);
-    let scene = section
-        .require("scene", "scene = \"monolithic/oscillator.toml\"", problems)
-        .and_then(|field| field.text(problems));
-    let columns = section
-        .require(
-            "columns",
-            "columns = { \"mass1.x\" = \"mass.x\" }",
-            problems,
-        )
+    let [scene, columns] = section.read(&KEYS, problems);
+    let scene = scene.and_then(|field| field.text(problems));
+    let columns = columns
         .and_then(|field| field.section(problems))
         .map(|columns| {
-            let pairs = columns.fields();
+            let pairs = columns.entries();
             let read = pairs.map(|(own, field)| {
                 let own = sum(own, &field, problems)?;
                 Some((own, sum(field.text(problems)?, &field, problems)?))

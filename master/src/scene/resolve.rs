@@ -13,30 +13,75 @@ use super::sweeps;
 use super::whole::Scene;
 use crate::reading::error::{SceneError, SceneErrors};
 use crate::reading::error_kind::SceneErrorKind;
-use crate::reading::lists::{collect, sections};
+use crate::reading::key::{FINITE, Key, Range, Takes};
+use crate::reading::lists::sections;
 use crate::reading::names::Registry;
-use crate::reading::reader::{FINITE, Field, Problems, Range, Section};
-use crate::reading::written::{Value, Written};
+use crate::reading::reader::{Field, Problems, Section, collect, given};
+use crate::reading::written::Written;
 
-const SECTIONS: [&str; 11] = [
-    "scene",
-    "coupling",
-    "subsystem",
-    "joint",
-    "connection",
-    "output",
-    "run",
-    "case",
-    "converge",
-    "stability",
-    "monolithic",
+/// The tables of a scene file.
+pub const SCENE_KEYS: [Key; 11] = [
+    Key::new("scene", Takes::Table(|| HEAD.to_vec()))
+        .required("[scene] with name and t_end")
+        .means("name and times"),
+    Key::new("coupling", Takes::Table(coupling::keys_of_all_methods))
+        .required("[coupling] with method and macro_step")
+        .means("the coupling method and its parameters"),
+    Key::new("subsystem", Takes::Tables(|| subsystem::KEYS.to_vec()))
+        .default("one at least")
+        .means("a model that is coupled"),
+    Key::new("joint", Takes::Tables(|| joint::KEYS.to_vec()))
+        .default("none")
+        .means("a constraint between two subsystems"),
+    Key::new("connection", Takes::Tables(|| connection::KEYS.to_vec()))
+        .default("none")
+        .means("an output of one subsystem that is an input of another"),
+    Key::new("output", Takes::Table(|| output::KEYS.to_vec()))
+        .default("its defaults")
+        .means("what is recorded and drawn"),
+    Key::new("run", Takes::Table(|| RUN.to_vec()))
+        .default("its defaults")
+        .means("how long workers may take"),
+    Key::new("case", Takes::Tables(|| sweeps::CASE.to_vec()))
+        .default("none")
+        .means("a variant; one command runs all of them"),
+    Key::new("converge", Takes::Table(|| sweeps::CONVERGE.to_vec()))
+        .default("as the command line says")
+        .means("the convergence study"),
+    Key::new("stability", Takes::Table(|| sweeps::STABILITY.to_vec()))
+        .default("as the command line says")
+        .means("the map of stability"),
+    Key::new("monolithic", Takes::Table(|| monolithic::KEYS.to_vec()))
+        .default("none")
+        .means("the same system in one subsystem, which runs are compared with"),
 ];
-const DEFAULT_DEADLINE: f64 = 30.0;
-const DEFAULT_START_TIMEOUT: f64 = 10.0;
+const HEAD: [Key; 3] = [
+    Key::new("name", Takes::Name)
+        .required("name = \"oscillator\"")
+        .means("name of the results folder"),
+    Key::new("t_start", Takes::Number(FINITE))
+        .default_number(0.0)
+        .means("start, s"),
+    Key::new("t_end", Takes::Number(FINITE))
+        .required("t_end = 1.0")
+        .means("end, s"),
+];
+const RUN: [Key; 2] = [
+    Key::new("deadline", Takes::Number(TIME_LIMIT))
+        .default_number(DEADLINE)
+        .means("longest time for one answer of a worker, s"),
+    Key::new("start_timeout", Takes::Number(TIME_LIMIT))
+        .default_number(START_TIMEOUT)
+        .means("longest time for a worker to start or to be reached, s"),
+];
+const DEADLINE: f64 = 30.0;
+const START_TIMEOUT: f64 = 10.0;
 /// Longer than any sensible wait, and short enough for every clock.
 const TIME_LIMIT: Range = Range {
     words: "greater than 0 s and at most 1e6 s",
-    contains: |value| value > 0.0 && value <= 1e6,
+    above: 0.0,
+    most: 1e6,
+    ..FINITE
 };
 
 /// The scene, or everything that is wrong with it, together with the mistakes that were found before.
@@ -51,50 +96,54 @@ pub(super) fn resolve(written: Written, earlier: Vec<SceneError>) -> Result<Scen
 }
 
 fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
-    let Value::Table(table) = &written.root.value else {
-        return None;
-    };
-    let root = Section::root(written, table);
-    root.allow_only(&SECTIONS, problems);
-    let head = root
-        .require("scene", "[scene] with name and t_end", problems)
-        .and_then(|field| field.section(problems))
-        .and_then(|section| read_head(&section, problems));
+    let root = Section::root(written)?;
+    let [
+        head,
+        coupling,
+        subsystems,
+        joints,
+        connections,
+        output,
+        run,
+        cases,
+        converge,
+        stability,
+        monolithic,
+    ] = root.read(&SCENE_KEYS, problems);
+    let head = head.and_then(|field| read_head(&field.section(problems)?, problems));
     let duration = head.as_ref().map(|head| head.t_end - head.t_start);
-    let coupling = root
-        .require(
-            "coupling",
-            "[coupling] with method and macro_step",
-            problems,
-        )
-        .and_then(|field| field.section(problems))
-        .and_then(|section| coupling::read(&section, duration, problems));
-    let subsystem_tables = sections(&root, "subsystem", problems);
-    let joint_tables = sections(&root, "joint", problems);
-    let subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
-    Registry::collect("joint", &joint_tables, Some(&subsystem_names), problems);
-    if !table.contains_key("subsystem") {
+    let coupling =
+        coupling.and_then(|field| coupling::read(&field.section(problems)?, duration, problems));
+    if subsystems.is_none() {
         problems.report(root.spot, SceneErrorKind::NoSubsystem);
     }
+    let subsystem_tables = sections(subsystems, problems);
+    let joint_tables = sections(joints, problems);
+    let subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
+    Registry::collect("joint", &joint_tables, Some(&subsystem_names), problems);
     let subsystems = collect(&subsystem_tables, |table| subsystem::read(table, problems));
     let joints = collect(&joint_tables, |table| {
         joint::read(table, &subsystem_names, problems)
     });
-    let connection_tables = sections(&root, "connection", problems);
+    let connection_tables = sections(connections, problems);
     Registry::collect("connection", &connection_tables, None, problems);
     let connections = collect(&connection_tables, |table| {
         connection::read(table, &subsystem_names, problems)
     });
-    let output = output::read(&root, &subsystem_names, duration, problems);
-    let run = read_run(&root, problems);
-    let case_tables = sections(&root, "case", problems);
+    let output = output::read(output, &subsystem_names, duration, problems);
+    let run = read_run(run, problems);
+    let case_tables = sections(cases, problems);
     Registry::collect("case", &case_tables, None, problems);
     let cases = collect(&case_tables, |table| sweeps::read_case(table, problems));
-    let converge = optional(root.get("converge"), problems, |section, problems| {
-        sweeps::read_converge(section, duration, problems)
+    let converge = given(converge, |field| {
+        sweeps::read_converge(&field.section(problems)?, duration, problems)
     });
-    let stability = optional(root.get("stability"), problems, sweeps::read_stability);
-    let monolithic = optional(root.get("monolithic"), problems, monolithic::read);
+    let stability = given(stability, |field| {
+        sweeps::read_stability(&field.section(problems)?, problems)
+    });
+    let monolithic = given(monolithic, |field| {
+        monolithic::read(&field.section(problems)?, problems)
+    });
     let head = head?;
     Some(Scene {
         name: head.name,
@@ -114,18 +163,6 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     })
 }
 
-/// `Some(None)` if the table is absent.
-fn optional<T>(
-    field: Option<Field<'_>>,
-    problems: &mut Problems<'_>,
-    read: impl FnOnce(&Section<'_>, &mut Problems<'_>) -> Option<T>,
-) -> Option<Option<T>> {
-    match field {
-        Some(field) => read(&field.section(problems)?, problems).map(Some),
-        None => Some(None),
-    }
-}
-
 struct Head {
     name: String,
     t_start: f64,
@@ -133,20 +170,13 @@ struct Head {
 }
 
 fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head> {
-    section.allow_only(&["name", "t_start", "t_end"], problems);
-    let name = section
-        .require("name", "name = \"oscillator\"", problems)
-        .and_then(|field| field.name(problems));
-    let t_start = section
-        .get("t_start")
-        .map_or(Some(0.0), |field| field.number(&FINITE, problems));
-    let end_field = section.require("t_end", "t_end = 1.0", problems);
-    let t_end = end_field
-        .as_ref()
-        .and_then(|field| field.number(&FINITE, problems));
+    let [name, start, end] = section.read(&HEAD, problems);
+    let name = name.and_then(|field| field.name(problems));
+    let t_start = start.map_or(Some(0.0), |field| field.number(problems));
+    let t_end = end.as_ref().and_then(|field| field.number(problems));
     let (t_start, t_end) = (t_start?, t_end?);
     if t_end <= t_start || !(t_end - t_start).is_finite() {
-        end_field?.report(SceneErrorKind::EndBeforeStart { t_start, t_end }, problems);
+        end?.report(SceneErrorKind::EndBeforeStart { t_start, t_end }, problems);
         return None;
     }
     Some(Head {
@@ -156,23 +186,16 @@ fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head>
     })
 }
 
-fn read_run(root: &Section<'_>, problems: &mut Problems<'_>) -> Option<RunSettings> {
-    let default = RunSettings {
-        deadline: DEFAULT_DEADLINE,
-        start_timeout: DEFAULT_START_TIMEOUT,
+fn read_run(field: Option<Field<'_>>, problems: &mut Problems<'_>) -> Option<RunSettings> {
+    let [deadline, start_timeout] = match field {
+        Some(field) => field.section(problems)?.read(&RUN, problems),
+        None => [None, None],
     };
-    let Some(field) = root.get("run") else {
-        return Some(default);
+    let mut seconds = |field: Option<Field<'_>>, default| {
+        field.map_or(Some(default), |field| field.number(problems))
     };
-    let section = field.section(problems)?;
-    section.allow_only(&["deadline", "start_timeout"], problems);
-    let mut seconds = |key, default| {
-        section
-            .get(key)
-            .map_or(Some(default), |field| field.number(&TIME_LIMIT, problems))
-    };
-    let deadline = seconds("deadline", default.deadline);
-    let start_timeout = seconds("start_timeout", default.start_timeout);
+    let deadline = seconds(deadline, DEADLINE);
+    let start_timeout = seconds(start_timeout, START_TIMEOUT);
     Some(RunSettings {
         deadline: deadline?,
         start_timeout: start_timeout?,

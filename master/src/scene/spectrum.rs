@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
-use super::sweeps::{log_grid, read_linear_grid};
+use super::sweeps::{LINEAR_GRID, log_grid, read_linear_grid};
 use crate::reading::error::SceneErrors;
-use crate::reading::error_kind::SceneErrorKind;
-use crate::reading::lists::{collect, sections};
-use crate::reading::reader::{FINITE, Field, POSITIVE, Problems, Range, Section};
+use crate::reading::key::{FINITE, Key, POSITIVE, Range, Takes};
+use crate::reading::lists::sections;
+use crate::reading::names::report_repeated;
+use crate::reading::reader::{Field, Problems, Section, collect, given};
 use crate::reading::text::text_of;
-use crate::reading::written::{Value, Written};
+use crate::reading::written::Written;
 
 /// Schemes over the step, and a region of parameters; one of them is there.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +87,50 @@ pub struct RegionPoint {
     pub alpha_f: f64,
 }
 
-const SPECTRUM_FILE: &str = "spectrum file";
+/// The tables of a spectrum file.
+pub const SPECTRUM_KEYS: [Key; 1] = [Key::new("spectrum", Takes::Table(|| SPECTRUM.to_vec()))
+    .required("[spectrum] with name, and [[spectrum.curve]] with label and scheme")
+    .means("what is compared")];
+const SPECTRUM: [Key; 7] = [
+    Key::new("name", Takes::Name)
+        .required("name = \"fig08\"")
+        .means("name of the results folder"),
+    Key::new("from", Takes::Number(STEP_OVER_PERIOD))
+        .default_number(FROM)
+        .means("the least dt / T"),
+    Key::new("to", Takes::Number(STEP_OVER_PERIOD))
+        .default_number(TO)
+        .means("the greatest dt / T"),
+    Key::new("points", Takes::Whole(2, MOST_POINTS))
+        .default_number(POINTS as f64)
+        .means("how many there are, at equal ratios"),
+    Key::new("period_to", Takes::Number(POSITIVE))
+        .default_number(PERIOD_TO)
+        .means("right end of the picture of period errors, dt / T"),
+    CURVE,
+    Key::new("region", Takes::Table(|| REGION.to_vec()))
+        .default("none")
+        .means("with curves or alone: where generalised-alpha is stable"),
+];
+const CURVE: Key = Key::new("curve", Takes::Tables(|| CURVE_KEYS.to_vec()))
+    .required("[[spectrum.curve]] with label and scheme")
+    .default("required without `region`")
+    .means("a scheme of the picture");
+const CURVE_KEYS: [Key; 2] = [
+    LABEL,
+    Key::new(
+        "scheme",
+        Takes::Table(|| vec![KIND, RHO_INF, NEWMARK[0], NEWMARK[1], ALPHA_AR]),
+    )
+    .required("scheme = { kind = \"generalized-alpha\", rho_inf = 0.8 }")
+    .means("kind and parameters of the scheme"),
+];
+const LABEL: Key = Key::new("label", Takes::Text)
+    .required("label = \"rho_inf = 0.8\"")
+    .means("name in legend and table");
+const KIND: Key = Key::new("kind", Takes::Choice(&KINDS))
+    .required("kind = \"bathe\"")
+    .means("the scheme; parameters that it does not have may not stand");
 const KINDS: [&str; 6] = [
     "generalized-alpha",
     "newmark-alpha",
@@ -95,31 +139,76 @@ const KINDS: [&str; 6] = [
     "moreau",
     "hets",
 ];
-const DEFAULT_FROM: f64 = 1e-2;
-const DEFAULT_TO: f64 = 1e2;
-const DEFAULT_POINTS: usize = 161;
-const DEFAULT_PERIOD_TO: f64 = 0.5;
+const RHO_INF: Key = Key::new(
+    "rho_inf",
+    Takes::Number(Range {
+        words: "0 to 1",
+        least: 0.0,
+        most: 1.0,
+        ..FINITE
+    }),
+)
+.required("rho_inf = 0.8")
+.default("required for generalized-alpha and ed-alpha")
+.means("spectral radius for infinite frequency (S2 eq. 26)");
+const NEWMARK: [Key; 2] = [
+    Key::new("alpha_m", Takes::Number(FINITE))
+        .required("alpha_m = 0.0")
+        .default("required for newmark-alpha")
+        .means("at most `alpha_f`; (0, 0) is Newmark, (0, alpha) is HHT"),
+    Key::new(
+        "alpha_f",
+        Takes::Number(Range {
+            words: "at most 0.5, or high frequencies grow",
+            most: 0.5,
+            ..FINITE
+        }),
+    )
+    .required("alpha_f = 0.3")
+    .default("required for newmark-alpha")
+    .means("not less than `alpha_m`"),
+];
+const ALPHA_AR: Key = Key::new("alpha_ar", Takes::Number(POSITIVE))
+    .default("1/6")
+    .means("ed-alpha: place of the cut-off");
+const REGION: [Key; 3] = [
+    region_axis("alpha_m"),
+    region_axis("alpha_f"),
+    Key::new("point", Takes::Tables(|| POINT.to_vec()))
+        .default("none")
+        .means("a point that the picture names"),
+];
+const fn region_axis(name: &'static str) -> Key {
+    Key::new(name, Takes::Table(|| LINEAR_GRID.to_vec()))
+        .required("{ from = -1.2, to = 0.7, points = 77 }")
+        .means("values at equal distances")
+}
+const POINT: [Key; 3] = [
+    LABEL,
+    Key::new("alpha_m", Takes::Number(FINITE))
+        .required("alpha_m = -1.0")
+        .means("its abscissa"),
+    Key::new("alpha_f", Takes::Number(FINITE))
+        .required("alpha_f = 0.5")
+        .means("its ordinate"),
+];
+const SPECTRUM_FILE: &str = "spectrum file";
+const FROM: f64 = 1e-2;
+const TO: f64 = 1e2;
+const POINTS: usize = 161;
+const PERIOD_TO: f64 = 0.5;
 const DEFAULT_ALPHA_AR: f64 = 1.0 / 6.0;
 const MOST_POINTS: usize = 100_000;
 const STEP_OVER_PERIOD: Range = Range {
     words: "greater than 0 and at most 1e6",
-    contains: |value| value > 0.0 && value <= 1e6,
-};
-const RADIUS: Range = Range {
-    words: "0 to 1",
-    contains: |value| (0.0..=1.0).contains(&value),
-};
-const AT_MOST_HALF: Range = Range {
-    words: "at most 0.5, or high frequencies grow",
-    contains: |value| value <= 0.5,
+    above: 0.0,
+    most: 1e6,
+    ..FINITE
 };
 
 /// Whether the file at `path` describes spectra, as one with a table `spectrum` does; false if it cannot be read.
 pub fn is_spectrum(path: &Path) -> bool {
-    let text = text_of(path, SPECTRUM_FILE).ok();
-    let written = text.and_then(|text| Written::parse(&text, "", SPECTRUM_FILE).ok());
-    let root = written.map(|written| written.root.value);
-    matches!(root, Some(Value::Table(table)) if table.contains_key("spectrum"))
+    Written::has_table(path, SPECTRUM_KEYS[0].name)
 }
 
 /// Reads a spectrum file.
@@ -143,47 +232,23 @@ pub fn parse_spectrum(text: &str, origin: &str) -> Result<SpectrumFile, SceneErr
 }
 
 fn read(written: &Written, problems: &mut Problems<'_>) -> Option<SpectrumFile> {
-    let Value::Table(table) = &written.root.value else {
-        return None;
-    };
-    let root = Section::root(written, table);
+    let root = Section::root(written)?;
     // Of a scene, every key would be a mistake.
-    let example = "[spectrum] with name, and [[spectrum.curve]] with label and scheme";
-    let head = root.require("spectrum", example, problems)?;
-    root.allow_only(&["spectrum"], problems);
+    let [head] = root.fields(&SPECTRUM_KEYS, problems);
+    let head = head?;
+    root.allow_only(&SPECTRUM_KEYS, problems);
     let section = head.section(problems)?;
-    let allowed = [
-        "name",
-        "from",
-        "to",
-        "points",
-        "period_to",
-        "curve",
-        "region",
-    ];
-    section.allow_only(&allowed, problems);
-    let name = section
-        .require("name", "name = \"fig08\"", problems)
-        .and_then(|field| field.name(problems));
-    let sweep = read_sweep(&section, problems);
-    let period_to = optional(
-        &section,
-        "period_to",
-        DEFAULT_PERIOD_TO,
-        &POSITIVE,
-        problems,
-    );
-    let region = match section.get("region") {
-        Some(field) => { field.section(problems) }
-            .and_then(|region| read_region(&region, problems))
-            .map(Some),
-        None => {
-            let example = "[[spectrum.curve]] with label and scheme";
-            section.require("curve", example, problems);
-            Some(None)
-        }
-    };
-    let tables = sections(&section, "curve", problems);
+    let [name, from, to, points, period_to, curves, region] = section.read(&SPECTRUM, problems);
+    let name = name.and_then(|field| field.name(problems));
+    let sweep = read_sweep(from, to, points, problems);
+    let period_to = period_to.map_or(Some(PERIOD_TO), |field| field.number(problems));
+    if region.is_none() {
+        section.require(&CURVE, problems);
+    }
+    let region = given(region, |field| {
+        read_region(&field.section(problems)?, problems)
+    });
+    let tables = sections(curves, problems);
     report_equal_labels(&tables, "curve", problems);
     let curves = collect(&tables, |table| read_curve(table, problems));
     Some(SpectrumFile {
@@ -195,39 +260,21 @@ fn read(written: &Written, problems: &mut Problems<'_>) -> Option<SpectrumFile> 
     })
 }
 
-/// A number with a default.
-fn optional(
-    section: &Section<'_>,
-    key: &str,
-    default: f64,
-    range: &Range,
+fn read_sweep(
+    from_field: Option<Field<'_>>,
+    to_field: Option<Field<'_>>,
+    points: Option<Field<'_>>,
     problems: &mut Problems<'_>,
-) -> Option<f64> {
-    let field = section.get(key);
-    field.map_or(Some(default), |field| field.number(range, problems))
-}
-
-fn read_sweep(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
-    let from = optional(section, "from", DEFAULT_FROM, &STEP_OVER_PERIOD, problems);
-    let to = optional(section, "to", DEFAULT_TO, &STEP_OVER_PERIOD, problems);
-    let points = section.get("points").map_or(Some(DEFAULT_POINTS), |field| {
-        field.whole(2, MOST_POINTS, problems)
-    });
-    let (from, to, points) = (from?, to?, points?);
+) -> Option<Vec<f64>> {
+    let from = given(from_field.clone(), |field| field.number(problems));
+    let to = given(to_field.clone(), |field| field.number(problems));
+    let points = points.map_or(Some(POINTS), |field| field.whole(problems));
+    let (from, to, points) = (from?.unwrap_or(FROM), to?.unwrap_or(TO), points?);
     if from >= to {
-        let field = section.get("to").or_else(|| section.get("from"))?;
         let allowed = format!("such that from = {from:?} is less than to = {to:?}");
-        return field.out_of_range(&allowed, problems);
+        return to_field.or(from_field)?.refuse(&allowed, problems);
     }
     Some(log_grid(from, to, points))
-}
-
-fn read_label(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<String> {
-    let field = section.require("label", "label = \"rho_inf = 0.8\"", problems)?;
-    match field.text(problems)? {
-        "" => field.wrong_type("a text that is not empty", problems),
-        label => Some(label.to_owned()),
-    }
 }
 
 fn report_equal_labels(
@@ -235,37 +282,16 @@ fn report_equal_labels(
     taken_by: &'static str,
     problems: &mut Problems<'_>,
 ) {
-    let labels: Vec<Field<'_>> = tables
-        .iter()
-        .filter_map(|table| table.get("label"))
+    let labels: Vec<Field<'_>> = { tables.iter() }
+        .filter_map(|table| table.get(&LABEL))
         .collect();
-    for (place, field) in labels.iter().enumerate() {
-        let Some(label) = field.peek_text() else {
-            continue;
-        };
-        let mut earlier = labels[..place].iter();
-        let Some(first) = earlier.find(|earlier| earlier.peek_text() == Some(label)) else {
-            continue;
-        };
-        let line = problems.written.place(&first.node.spot);
-        let kind = SceneErrorKind::DuplicateName {
-            key: field.key.clone(),
-            name: label.to_owned(),
-            taken_by,
-            line: line.map(|place| place.line),
-        };
-        field.report(kind, problems);
-    }
+    report_repeated(&labels, taken_by, problems);
 }
 
 fn read_curve(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<SpectrumCurve> {
-    section.allow_only(&["label", "scheme"], problems);
-    let label = read_label(section, problems);
-    let example = "scheme = { kind = \"generalized-alpha\", rho_inf = 0.8 }";
-    let scheme = section
-        .require("scheme", example, problems)
-        .and_then(|field| field.section(problems))
-        .and_then(|scheme| read_scheme(&scheme, problems));
+    let [label, scheme] = section.read(&CURVE_KEYS, problems);
+    let label = label.and_then(|field| field.filled_text(problems));
+    let scheme = scheme.and_then(|field| read_scheme(&field.section(problems)?, problems));
     Some(SpectrumCurve {
         label: label?,
         scheme: scheme?,
@@ -274,31 +300,27 @@ fn read_curve(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Spec
 
 fn read_scheme(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<SpectrumScheme> {
     let kinds = KINDS.map(|kind| (kind, kind));
-    let kind = section
-        .require("kind", "kind = \"bathe\"", problems)
-        .and_then(|field| field.choice(&kinds, problems))?;
-    let rho_inf = |problems: &mut Problems<'_>| {
-        let field = section.require("rho_inf", "rho_inf = 0.8", problems)?;
-        field.number(&RADIUS, problems)
-    };
-    match kind {
+    let [kind] = section.fields(&[KIND], problems);
+    match kind?.choice(&kinds, problems)? {
         "generalized-alpha" => {
-            section.allow_only(&["kind", "rho_inf"], problems);
-            let rho_inf = rho_inf(problems)?;
+            section.allow_only(&[KIND, RHO_INF], problems);
+            let rho_inf = section.require(&RHO_INF, problems)?.number(problems)?;
             Some(SpectrumScheme::GeneralizedAlpha { rho_inf })
         }
         "newmark-alpha" => read_newmark(section, problems),
         "ed-alpha" => {
-            section.allow_only(&["kind", "rho_inf", "alpha_ar"], problems);
-            let rho_inf = rho_inf(problems);
-            let alpha_ar = optional(section, "alpha_ar", DEFAULT_ALPHA_AR, &POSITIVE, problems);
+            section.allow_only(&[KIND, RHO_INF, ALPHA_AR], problems);
+            let rho_inf = section.require(&RHO_INF, problems);
+            let rho_inf = rho_inf.and_then(|field| field.number(problems));
+            let alpha_ar = section.get(&ALPHA_AR);
+            let alpha_ar = alpha_ar.map_or(Some(DEFAULT_ALPHA_AR), |field| field.number(problems));
             Some(SpectrumScheme::EdAlpha {
                 rho_inf: rho_inf?,
                 alpha_ar: alpha_ar?,
             })
         }
         parameterless => {
-            section.allow_only(&["kind"], problems);
+            section.allow_only(&[KIND], problems);
             Some(match parameterless {
                 "bathe" => SpectrumScheme::Bathe,
                 "moreau" => SpectrumScheme::Moreau,
@@ -309,28 +331,24 @@ fn read_scheme(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Spe
 }
 
 fn read_newmark(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<SpectrumScheme> {
-    section.allow_only(&["kind", "alpha_m", "alpha_f"], problems);
-    let field = section.require("alpha_m", "alpha_m = 0.0", problems);
-    let alpha_m = { field.as_ref() }.and_then(|field| field.number(&FINITE, problems));
-    let alpha_f = section
-        .require("alpha_f", "alpha_f = 0.3", problems)
-        .and_then(|field| field.number(&AT_MOST_HALF, problems));
+    section.allow_only(&[KIND, NEWMARK[0], NEWMARK[1]], problems);
+    let [field, alpha_f] = { NEWMARK.each_ref() }.map(|key| section.require(key, problems));
+    let alpha_m = field.as_ref().and_then(|field| field.number(problems));
+    let alpha_f = alpha_f.and_then(|field| field.number(problems));
     let (alpha_m, alpha_f) = (alpha_m?, alpha_f?);
     if alpha_m > alpha_f {
         let allowed = format!("at most alpha_f = {alpha_f:?}, or high frequencies grow");
-        return field?.out_of_range(&allowed, problems);
+        return field?.refuse(&allowed, problems);
     }
     Some(SpectrumScheme::NewmarkAlpha { alpha_m, alpha_f })
 }
 
 fn read_region(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<SpectrumRegion> {
-    section.allow_only(&["alpha_m", "alpha_f", "point"], problems);
-    let mut axis = |key| {
-        let field = section.require(key, "{ from = -1.2, to = 0.7, points = 77 }", problems)?;
-        read_linear_grid(&field.section(problems)?, problems)
-    };
-    let (alpha_m, alpha_f) = (axis("alpha_m"), axis("alpha_f"));
-    let tables = sections(section, "point", problems);
+    let [alpha_m, alpha_f, points] = section.read(&REGION, problems);
+    let mut axis =
+        |field: Option<Field<'_>>| read_linear_grid(&field?.section(problems)?, problems);
+    let (alpha_m, alpha_f) = (axis(alpha_m), axis(alpha_f));
+    let tables = sections(points, problems);
     report_equal_labels(&tables, "point", problems);
     let points = collect(&tables, |table| read_point(table, problems));
     Some(SpectrumRegion {
@@ -341,16 +359,10 @@ fn read_region(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Spe
 }
 
 fn read_point(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<RegionPoint> {
-    section.allow_only(&["label", "alpha_m", "alpha_f"], problems);
-    let label = read_label(section, problems);
-    let mut number = |key, example| {
-        let field = section.require(key, example, problems)?;
-        field.number(&FINITE, problems)
-    };
-    let (alpha_m, alpha_f) = (
-        number("alpha_m", "alpha_m = -1.0"),
-        number("alpha_f", "alpha_f = 0.5"),
-    );
+    let [label, alpha_m, alpha_f] = section.read(&POINT, problems);
+    let label = label.and_then(|field| field.filled_text(problems));
+    let alpha_m = alpha_m.and_then(|field| field.number(problems));
+    let alpha_f = alpha_f.and_then(|field| field.number(problems));
     Some(RegionPoint {
         label: label?,
         alpha_m: alpha_m?,

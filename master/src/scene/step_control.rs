@@ -3,18 +3,50 @@
 use super::resolved::StepControl;
 use crate::reading::error_kind::SceneErrorKind;
 use crate::reading::formula::Steps;
-use crate::reading::reader::{Field, POSITIVE, Problems, Range, Section};
+use crate::reading::key::{FINITE, Key, POSITIVE, Range, Takes};
+use crate::reading::reader::{Field, Problems, Section, given};
 
+pub(super) const MACRO_STEP: Key = Key::new("macro_step", Takes::Number(POSITIVE))
+    .required("macro_step = 1e-3")
+    .default("required without `tolerance`")
+    .means(
+        "H, s; at most t_end - t_start. With `tolerance` the first step, by default 1e-4 \
+         (t_end - t_start). Larger: fewer exchanges, larger errors; much smaller: \
+         differences drown in rounding for index 3",
+    );
 /// The key that makes the macro step vary.
-const TOLERANCE_KEY: &str = "tolerance";
-
+pub(super) const TOLERANCE: Key = Key::new(
+    "tolerance",
+    Takes::Number(Range {
+        words: "from 1e-12, below which it is rounding, to 0.1",
+        least: 1e-12,
+        most: 0.1,
+        ..FINITE
+    }),
+)
+.default("fixed steps")
+.means(
+    "lets the macro step follow the error: error of positions relative to their size; \
+     see [step control](../theory/step-control.md)",
+);
 /// Keys that only a variable macro step has.
-pub(super) const KEYS: [&str; 3] = ["absolute_tolerance", "least_step", "greatest_step"];
-
-const TOLERANCE: Range = Range {
-    words: "from 1e-12, below which it is rounding, to 0.1",
-    contains: |value| (1e-12..=0.1).contains(&value),
-};
+pub(super) const VARIABLE: [Key; 3] = [
+    Key::new("absolute_tolerance", Takes::Number(POSITIVE))
+        .default("1e-3 `tolerance`")
+        .means(
+            "with `tolerance`: error in m or rad that is allowed whatever the size; smaller if \
+             motions are much smaller than 1 mm or 1 mrad",
+        ),
+    Key::new("least_step", Takes::Number(POSITIVE))
+        .default("1e-9 (t_end - t_start)")
+        .means(
+            "with `tolerance`: shortest macro step, s; at most `macro_step`. A run that needs a \
+             shorter one stops",
+        ),
+    Key::new("greatest_step", Takes::Number(POSITIVE))
+        .default("(t_end - t_start)/10, or `macro_step` or `least_step` if that is more")
+        .means("with `tolerance`: longest macro step, s; at least `macro_step`"),
+];
 
 /// Absolute tolerance per relative one: a motion counts as at least 1e-3 m or rad in size.
 const LEAST_SIZE: f64 = 1e-3;
@@ -46,31 +78,26 @@ pub(super) fn read(
     duration: Option<f64>,
     problems: &mut Problems<'_>,
 ) -> Option<MacroSteps> {
-    let Some(tolerance) = section.get(TOLERANCE_KEY) else {
-        refuse_keys_of_variable_steps(section, problems);
+    let [absolute, least, greatest] = section.fields(&VARIABLE, problems);
+    let Some(tolerance) = section.get(&TOLERANCE) else {
+        for field in [absolute, least, greatest].into_iter().flatten() {
+            let key = field.key.clone();
+            field.report(SceneErrorKind::OnlyWithTolerance { key }, problems);
+        }
         let first = section
-            .require("macro_step", "macro_step = 1e-3", problems)
+            .require(&MACRO_STEP, problems)
             .and_then(|field| read_step(&field, duration, problems))?;
         let control = None;
         return Some(MacroSteps { first, control });
     };
-    let tolerance = tolerance.number(&TOLERANCE, problems);
-    let absolute = given(section.get(KEYS[0]), |field| {
-        field.number(&POSITIVE, problems)
-    });
-    let mut step = |key| {
-        given(section.get(key), |field| {
-            read_step(field, duration, problems)
-        })
-    };
-    let (least, first, greatest) = (step(KEYS[1]), step("macro_step"), step(KEYS[2]));
+    let tolerance = tolerance.number(problems);
+    let absolute = given(absolute, |field| field.number(problems));
+    let fields = [least, section.get(&MACRO_STEP), greatest];
+    let steps =
+        { fields.clone() }.map(|field| given(field, |field| read_step(field, duration, problems)));
+    let [least, first, greatest] = steps;
     let (least, first, greatest) = (least?, first?, greatest?);
-    check_order(
-        section,
-        ["least_step", "macro_step", "greatest_step"],
-        [least, first, greatest],
-        problems,
-    )?;
+    check_order(fields, [least, first, greatest], problems)?;
     let duration = duration?;
     let shortest_given =
         |others: [Option<f64>; 2]| others.into_iter().flatten().fold(f64::INFINITY, f64::min);
@@ -96,7 +123,7 @@ pub(super) fn read_step(
     duration: Option<f64>,
     problems: &mut Problems<'_>,
 ) -> Option<f64> {
-    let macro_step = field.number(&POSITIVE, problems)?;
+    let macro_step = field.number(problems)?;
     match duration {
         Some(duration) if macro_step > duration => {
             let kind = SceneErrorKind::StepTooLong {
@@ -111,52 +138,24 @@ pub(super) fn read_step(
     }
 }
 
-/// Absent is `Some(None)`; `None` is a mistake that has been reported.
-fn given<'w>(
-    field: Option<Field<'w>>,
-    read: impl FnOnce(&Field<'w>) -> Option<f64>,
-) -> Option<Option<f64>> {
-    match field {
-        Some(field) => read(&field).map(Some),
-        None => Some(None),
-    }
-}
-
-fn refuse_keys_of_variable_steps(section: &Section<'_>, problems: &mut Problems<'_>) {
-    for field in KEYS.into_iter().filter_map(|key| section.get(key)) {
-        let kind = SceneErrorKind::OnlyWithTolerance {
-            key: field.key.clone(),
-        };
-        field.report(kind, problems);
-    }
-}
-
 /// Of the steps that are given, none is longer than one behind it.
 fn check_order(
-    section: &Section<'_>,
-    keys: [&'static str; 3],
+    fields: [Option<Field<'_>>; 3],
     steps: [Option<f64>; 3],
     problems: &mut Problems<'_>,
 ) -> Option<()> {
-    let given: Vec<(&str, f64)> = keys
-        .into_iter()
-        .zip(steps)
-        .filter_map(|(key, step)| Some((key, step?)))
-        .collect();
+    let fields = fields.into_iter().flatten();
+    let given: Vec<(Field<'_>, f64)> = fields.zip(steps.into_iter().flatten()).collect();
     let wrong = given.windows(2).find(|pair| pair[0].1 > pair[1].1);
-    let Some([(shorter, least), (longer, most)]) =
-        wrong.and_then(|pair| <[_; 2]>::try_from(pair).ok())
-    else {
+    let Some([(shorter, least), (longer, most)]) = wrong else {
         return Some(());
     };
-    section.get(longer)?.report(
-        SceneErrorKind::StepsOutOfOrder {
-            shorter: section.key_of(shorter),
-            least,
-            longer: section.key_of(longer),
-            most,
-        },
-        problems,
-    );
+    let kind = SceneErrorKind::StepsOutOfOrder {
+        shorter: shorter.key.clone(),
+        least: *least,
+        longer: longer.key.clone(),
+        most: *most,
+    };
+    longer.report(kind, problems);
     None
 }

@@ -6,16 +6,17 @@ use std::sync::Arc;
 use super::assign::Assignment;
 use super::coupling::METHOD_KEY;
 use super::step_control::read_step;
-use super::sweeps::{read_macro_steps, set_assignments};
+use super::sweeps::{MACRO_STEPS, SET, read_macro_steps, set_assignments};
 use crate::reading::error::SceneErrors;
-use crate::reading::lists::{collect, sections};
+use crate::reading::key::{Key, POSITIVE, Takes, texts};
+use crate::reading::lists::sections;
 use crate::reading::names::Registry;
 use crate::reading::overrides::Override;
 use crate::reading::place::Source;
-use crate::reading::reader::{Field, POSITIVE, Problems, Section};
+use crate::reading::reader::{Field, Problems, Section, choice, collect, given};
 use crate::reading::reference::find_name;
 use crate::reading::text::text_of;
-use crate::reading::written::{Value, Written};
+use crate::reading::written::Written;
 
 /// A study: every scene with every setting that is meant for it, over the macro steps of the scene.
 #[derive(Clone, Debug)]
@@ -122,6 +123,74 @@ impl Settings {
     }
 }
 
+/// The tables of a study file.
+pub const STUDY_KEYS: [Key; 3] = [
+    Key::new("study", Takes::Table(|| HEAD.to_vec()))
+        .required("[study] with name")
+        .means("the study as a whole"),
+    Key::new("scene", Takes::Tables(|| SCENE.to_vec()))
+        .required("[[scene]] with name, file and macro_steps")
+        .means("a scene that runs with every setting"),
+    Key::new("setting", Takes::Tables(|| SETTING.to_vec()))
+        .required("[[setting]] with name and set")
+        .means("a coupling method with its parameters"),
+];
+const HEAD: [Key; 4] = [
+    Key::new("name", Takes::Name)
+        .required("name = \"report\"")
+        .means("name of the results folder"),
+    Key::new("title", Takes::Text)
+        .default("`name`")
+        .means("heading of the page"),
+    Key::new("measure", Takes::Choice(&texts(&MEASURES)))
+        .default_first()
+        .means("what errors are of"),
+    Key::new(
+        "targets",
+        Takes::List(
+            &Takes::Number(POSITIVE),
+            "a list of one or more relative errors such as [1e-4, 1e-6]",
+        ),
+    )
+    .default("`[1e-4, 1e-6, 1e-8]`")
+    .means("relative errors whose cost is asked for"),
+];
+const SCENE: [Key; 6] = [
+    Key::new("name", Takes::Name)
+        .required("name = \"oscillator\"")
+        .means("names it in the page"),
+    Key::new("file", Takes::Text)
+        .required("file = \"oscillator.toml\"")
+        .means("scene file, from the folder of the study"),
+    MACRO_STEPS,
+    Key::new("trace_step", Takes::Number(POSITIVE))
+        .default("the middle one of `macro_steps`")
+        .means("H of the curves over time, s"),
+    Key::new("measure", Takes::Choice(&texts(&MEASURES)))
+        .default("that of `[study]`")
+        .means("what errors are of"),
+    SET,
+];
+const SETTING: [Key; 4] = [
+    Key::new("name", Takes::Text)
+        .required("name = \"weighted, k = 1\"")
+        .means("names it in the page"),
+    Key::new("set", Takes::Open(&[]))
+        .required("set = { \"coupling.method\" = \"weighted\" }")
+        .means(
+            "what it sets, as in a `[[case]]`. A setting with `coupling.method` describes the \
+             coupling completely: of what the scene says about it only `macro_step` stays",
+        ),
+    Key::new(
+        "scenes",
+        Takes::List(&Takes::Text, "a list of names of scenes of this study"),
+    )
+    .default("all")
+    .means("names of those it is meant for"),
+    Key::new("paper", Takes::Flag)
+        .default("`false`")
+        .means("`true`: the paper's own"),
+];
 const STUDY_FILE: &str = "study file";
 const MEASURES: [(&str, Measure); 4] = [
     ("position", Measure::Position),
@@ -129,16 +198,11 @@ const MEASURES: [(&str, Measure); 4] = [
     ("state", Measure::State),
     ("multiplier", Measure::Multiplier),
 ];
-const TARGETS: &str = "a list of one or more relative errors such as [1e-4, 1e-6]";
 const DEFAULT_TARGETS: [f64; 3] = [1e-4, 1e-6, 1e-8];
-const NAMES: &str = "a list of names of scenes of this study";
 
 /// Whether the file at `path` is a study, as one with a table `study` is; false if it cannot be read.
 pub fn is_study(path: &Path) -> bool {
-    let text = text_of(path, STUDY_FILE).ok();
-    let written = text.and_then(|text| Written::parse(&text, "", STUDY_FILE).ok());
-    let root = written.map(|written| written.root.value);
-    matches!(root, Some(Value::Table(table)) if table.contains_key("study"))
+    Written::has_table(path, STUDY_KEYS[0].name)
 }
 
 /// Reads a study file; its paths count from its own folder.
@@ -162,23 +226,11 @@ pub fn parse_study(text: &str, origin: &str) -> Result<StudyFile, SceneErrors> {
 }
 
 fn read(written: &Written, problems: &mut Problems<'_>) -> Option<StudyFile> {
-    let Value::Table(table) = &written.root.value else {
-        return None;
-    };
-    let root = Section::root(written, table);
-    root.allow_only(&["study", "scene", "setting"], problems);
-    let head = root
-        .require("study", "[study] with name", problems)
-        .and_then(|field| field.section(problems))
-        .and_then(|section| read_head(&section, problems));
-    root.require(
-        "scene",
-        "[[scene]] with name, file and macro_steps",
-        problems,
-    );
-    root.require("setting", "[[setting]] with name and set", problems);
-    let scene_tables = sections(&root, "scene", problems);
-    let setting_tables = sections(&root, "setting", problems);
+    let root = Section::root(written)?;
+    let [head, scenes, settings] = root.read(&STUDY_KEYS, problems);
+    let head = head.and_then(|field| read_head(&field.section(problems)?, problems));
+    let scene_tables = sections(scenes, problems);
+    let setting_tables = sections(settings, problems);
     let scene_names = Registry::collect("scene", &scene_tables, None, problems);
     Registry::collect("setting", &setting_tables, None, problems);
     let measure = head.as_ref().map_or(Measure::Position, |head| head.measure);
@@ -204,16 +256,11 @@ struct Head {
 }
 
 fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head> {
-    section.allow_only(&["name", "title", "measure", "targets"], problems);
-    let name = section
-        .require("name", "name = \"report\"", problems)
-        .and_then(|field| field.name(problems));
-    let title = match section.get("title") {
-        Some(field) => field.text(problems).map(Some),
-        None => Some(None),
-    };
-    let measure = read_measure(section, Measure::Position, problems);
-    let targets = match section.get("targets") {
+    let [name, title, measure, targets] = section.read(&HEAD, problems);
+    let name = name.and_then(|field| field.name(problems));
+    let title = given(title, |field| field.text(problems));
+    let measure = choice(measure, &MEASURES, problems);
+    let targets = match targets {
         Some(field) => read_targets(&field, problems),
         None => Some(DEFAULT_TARGETS.to_vec()),
     };
@@ -226,21 +273,11 @@ fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head>
     })
 }
 
-fn read_measure(
-    section: &Section<'_>,
-    default: Measure,
-    problems: &mut Problems<'_>,
-) -> Option<Measure> {
-    let field = section.get("measure");
-    field.map_or(Some(default), |field| field.choice(&MEASURES, problems))
-}
-
 fn read_targets(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
-    let items = field.items(TARGETS, problems)?;
-    if items.is_empty() {
-        return field.wrong_type(TARGETS, problems);
+    if field.items(problems)?.is_empty() {
+        return field.refuse(&field.list().1, problems);
     }
-    let mut targets = collect(&items, |item| item.number(&POSITIVE, problems))?;
+    let mut targets = field.numbers(problems)?;
     targets.sort_by(|one, other| other.total_cmp(one));
     Some(targets)
 }
@@ -250,37 +287,20 @@ fn read_scene(
     measure: Measure,
     problems: &mut Problems<'_>,
 ) -> Option<StudyScene> {
-    let keys = [
-        "name",
-        "file",
-        "macro_steps",
-        "trace_step",
-        "measure",
-        "set",
-    ];
-    section.allow_only(&keys, problems);
-    let name = section
-        .require("name", "name = \"oscillator\"", problems)
-        .and_then(|field| field.name(problems));
-    let file = section
-        .require("file", "file = \"oscillator.toml\"", problems)
-        .and_then(|field| field.text(problems));
-    let macro_steps = section
-        .require("macro_steps", "macro_steps = [1e-2, 1e-3, 1e-4]", problems)
-        .and_then(|field| read_macro_steps(&field, None, problems));
-    let trace_step = match section.get("trace_step") {
-        Some(field) => read_step(&field, None, problems).map(Some),
-        None => Some(None),
-    };
-    let measure = read_measure(section, measure, problems);
-    let set = read_set(section, problems);
+    let [name, file, macro_steps, trace_step, own_measure, set] = section.read(&SCENE, problems);
+    let name = name.and_then(|field| field.name(problems));
+    let file = file.and_then(|field| field.text(problems));
+    let macro_steps = macro_steps.and_then(|field| read_macro_steps(&field, None, problems));
+    let trace_step = given(trace_step, |field| read_step(field, None, problems));
+    let own_measure = given(own_measure, |field| field.choice(&MEASURES, problems));
+    let set = read_set(section, set, problems);
     let macro_steps = macro_steps?;
     Some(StudyScene {
         name: name?.to_owned(),
         file: problems.written.folder().join(file?),
         trace_step: trace_step?.unwrap_or_else(|| middle(&macro_steps)),
         macro_steps,
-        measure: measure?,
+        measure: own_measure?.unwrap_or(measure),
         set: set?,
     })
 }
@@ -297,43 +317,30 @@ fn read_setting(
     scenes: usize,
     problems: &mut Problems<'_>,
 ) -> Option<StudySetting> {
-    section.allow_only(&["name", "set", "scenes", "paper"], problems);
-    let name_field = section.require("name", "name = \"weighted, k = 1\"", problems);
-    let name = name_field.and_then(|field| match field.text(problems)? {
-        "" => field.wrong_type("a text that is not empty", problems),
-        name => Some(name.to_owned()),
+    let [name, set, for_scenes, paper] = section.read(&SETTING, problems);
+    let name = name.and_then(|field| field.filled_text(problems));
+    let set = read_set(section, set, problems);
+    let places = given(for_scenes, |field| {
+        collect(&field.texts(problems)?, |name| {
+            find_name(name.text(problems)?, name, scene_names, problems)
+        })
     });
-    section.require(
-        "set",
-        "set = { \"coupling.method\" = \"weighted\" }",
-        problems,
-    );
-    let set = read_set(section, problems);
-    let places = match section.get("scenes") {
-        Some(field) => field.texts(NAMES, problems).and_then(|names| {
-            collect(&names, |name| {
-                find_name(name.text(problems)?, name, scene_names, problems)
-            })
-        }),
-        None => Some((0..scenes).collect()),
-    };
-    let is_paper = match section.get("paper") {
-        Some(field) => field.flag(problems),
-        None => Some(false),
-    };
+    let is_paper = paper.map_or(Some(false), |field| field.flag(problems));
     Some(StudySetting {
         name: name?,
         set: set?,
-        scenes: places?,
+        scenes: places?.unwrap_or_else(|| (0..scenes).collect()),
         is_paper: is_paper?,
     })
 }
 
 /// The key `set` of an entry; no settings if it is absent.
-fn read_set(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Settings> {
-    if let Some(field) = section.get("set") {
-        field.section(problems)?;
-    }
+fn read_set(
+    section: &Section<'_>,
+    set: Option<Field<'_>>,
+    problems: &mut Problems<'_>,
+) -> Option<Settings> {
+    given(set, |field| field.section(problems))?;
     Some(Settings {
         source: Arc::clone(problems.written.sources.first()?),
         assignments: set_assignments(section.table),

@@ -7,85 +7,80 @@ use tonic::transport::Uri;
 
 use super::resolved::{Calls, Served, Subsystem};
 use crate::reading::error_kind::SceneErrorKind;
-use crate::reading::lists::collect;
-use crate::reading::reader::{FINITE, Field, Problems, Section, is_name};
+use crate::reading::key::{Key, Takes, texts};
+use crate::reading::reader::{Field, Problems, Section, choice, collect, given, is_name};
 use crate::reading::written::Value;
 
-const KEYS: [&str; 8] = [
-    "name",
-    "model",
-    "address",
-    "command",
-    "parameters",
-    "free_velocities",
-    "solver",
-    "calls",
+pub(super) const KEYS: [Key; 8] = [
+    Key::new("name", Takes::Name)
+        .required("name = \"mass1\"")
+        .means("letters, digits, `-`, `_`"),
+    Key::new("model", Takes::Text)
+        .default("required for built-in models")
+        .means("for others: the only model of the worker"),
+    Key::new("address", Takes::Text)
+        .default("")
+        .means("a worker that runs already: `\"http://HOST:PORT\"` or `\"unix:/PATH\"`"),
+    Key::new("command", Takes::List(&Takes::Text, COMMAND))
+        .default("")
+        .means(
+            "a worker that the run starts; `{address}` in it is replaced, or `--listen ADDRESS` \
+             appended",
+        ),
+    Key::new("parameters", Takes::Open(&[]))
+        .default("model's defaults")
+        .means("`linchpin describe` lists them; a table inside stands for dotted names, see below"),
+    Key::new(
+        "free_velocities",
+        Takes::List(
+            &Takes::Text,
+            "a list of parameters such as [\"vx0\", \"vy0\"]",
+        ),
+    )
+    .default("none")
+    .means(
+        "parameters, initial velocities, that are chosen so that the joints meet on \
+         velocity level, as near as possible to what is given; the run tells what it chose",
+    ),
+    Key::new("solver", Takes::Open(&SOLVER))
+        .default("model's first")
+        .means(
+            "`{ kind = \"radau5\", rtol = 1e-8, atol = 1e-8 }`: its name, and options that \
+             `linchpin describe` lists",
+        ),
+    Key::new("calls", Takes::Choice(&texts(&CALLS)))
+        .default_first()
+        .means("`\"unary\"`: never use the exchange stream"),
 ];
+const SOLVER: [Key; 1] = [Key::new("kind", Takes::Text)
+    .required("solver = { kind = \"exact\" }")
+    .means("name of the solver")];
 const CALLS: [(&str, Calls); 2] = [("automatic", Calls::Automatic), ("unary", Calls::Unary)];
 const VALUE: &str = "a number, a text, true or false, or a list of numbers";
-const VELOCITIES: &str = "a list of parameters such as [\"vx0\", \"vy0\"]";
 const FILLED_TABLE: &str = "a table with at least one key";
 const COMMAND: &str = "a list of texts, the program first";
 
 pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Subsystem> {
-    section.allow_only(&KEYS, problems);
-    let name = section
-        .require("name", "name = \"mass1\"", problems)
-        .and_then(|field| field.name(problems));
-    let model = match section.get("model") {
-        Some(field) => read_model(&field, problems).map(Some),
-        None => Some(None),
-    };
-    let served = read_served(section, problems);
-    let parameters = match section.get("parameters") {
-        Some(field) => read_parameters(&field, problems),
-        None => Some(BTreeMap::new()),
-    };
-    let free_velocities = match section.get("free_velocities") {
-        Some(field) => read_texts(&field, problems),
-        None => Some(Vec::new()),
-    };
-    let solver = match section.get("solver") {
-        Some(field) => read_solver(&field, problems).map(Some),
-        None => Some(None),
-    };
-    let calls = section
-        .get("calls")
-        .map_or(Some(Calls::Automatic), |field| {
-            field.choice(&CALLS, problems)
-        });
-    Some(Subsystem {
-        name: name?.to_owned(),
-        served: served?,
-        model: model?,
-        parameters: parameters?,
-        free_velocities: free_velocities?,
-        solver: solver?,
-        calls: calls?,
-    })
-}
-
-fn read_texts(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<String>> {
-    let fields = field.texts(VELOCITIES, problems)?;
-    collect(&fields, |field| field.text(problems).map(str::to_owned))
-}
-
-fn read_model(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String> {
-    let model = field.text(problems)?;
-    if model.is_empty() {
-        return field.wrong_type("the name of a model", problems);
-    }
-    Some(model.to_owned())
-}
-
-fn read_served(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Served> {
-    match (section.get("address"), section.get("command")) {
+    let [
+        name,
+        model,
+        address,
+        command,
+        parameters,
+        free_velocities,
+        solver,
+        calls,
+    ] = section.read(&KEYS, problems);
+    let name = name.and_then(|field| field.name(problems));
+    let is_named = model.is_some();
+    let model = given(model, |field| match field.text(problems)? {
+        "" => field.refuse("the name of a model", problems),
+        model => Some(model.to_owned()),
+    });
+    let served = match (address, command) {
         (Some(address), None) => read_address(&address, problems).map(Served::Address),
-        (None, Some(command)) => {
-            let words = read_command(&command, problems)?;
-            Some(Served::Command(words))
-        }
-        (None, None) if section.get("model").is_some() => Some(Served::BuiltIn),
+        (None, Some(command)) => read_command(&command, problems).map(Served::Command),
+        (None, None) if is_named => Some(Served::BuiltIn),
         (None, None) => {
             let subsystem = section.key.clone();
             problems.report(section.spot, SceneErrorKind::NotServed { subsystem });
@@ -96,7 +91,23 @@ fn read_served(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Ser
             address.report(SceneErrorKind::ServedTwice { subsystem }, problems);
             None
         }
-    }
+    };
+    let parameters = given(parameters, |field| read_parameters(field, problems));
+    let free_velocities = given(free_velocities, |field| {
+        let fields = field.texts(problems)?;
+        collect(&fields, |field| field.text(problems).map(str::to_owned))
+    });
+    let solver = given(solver, |field| read_solver(field, problems));
+    let calls = choice(calls, &CALLS, problems);
+    Some(Subsystem {
+        name: name?.to_owned(),
+        served: served?,
+        model: model?,
+        parameters: parameters?.unwrap_or_default(),
+        free_velocities: free_velocities?.unwrap_or_default(),
+        solver: solver?,
+        calls: calls?,
+    })
 }
 
 fn read_address(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String> {
@@ -135,13 +146,13 @@ fn is_socket_path(address: &str) -> bool {
 
 fn read_command(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<String>> {
     let words: Option<Vec<&str>> = field
-        .texts(COMMAND, problems)?
+        .texts(problems)?
         .iter()
         .map(|word| word.text(problems))
         .collect();
     let words = words?;
     if words[0].is_empty() || words.iter().any(|word| word.contains('\0')) {
-        return field.wrong_type(COMMAND, problems);
+        return field.refuse(COMMAND, problems);
     }
     Some(words.into_iter().map(str::to_owned).collect())
 }
@@ -192,7 +203,7 @@ fn read_inner_table(
 ) -> bool {
     match field.section(problems) {
         Some(section) if section.table.is_empty() => {
-            let empty: Option<()> = field.wrong_type(FILLED_TABLE, problems);
+            let empty: Option<()> = field.refuse(FILLED_TABLE, problems);
             empty.is_some()
         }
         Some(section) => read_parameter_table(&section, &format!("{name}."), parameters, problems),
@@ -226,12 +237,11 @@ fn read_parameter(
 
 fn read_solver(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<v1::Solver> {
     let section = field.section(problems)?;
-    let kind = section
-        .require("kind", "solver = { kind = \"exact\" }", problems)
-        .and_then(|field| field.text(problems));
+    let [kind] = section.fields(&SOLVER, problems);
+    let kind = kind.and_then(|field| field.text(problems));
     let options: Vec<_> = section
-        .fields()
-        .filter(|(key, _)| *key != "kind")
+        .entries()
+        .filter(|(key, _)| SOLVER.iter().all(|own| own.name != *key))
         .map(|(key, field)| Some((key.to_owned(), read_value(&field, problems)?)))
         .collect();
     Some(v1::Solver {
@@ -245,19 +255,12 @@ fn read_value(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<v1::Valu
         Value::Text(text) => Kind::Text(text.clone()),
         Value::Flag(flag) => Kind::Flag(*flag),
         Value::Integer(_) | Value::Float(_) | Value::Oversized(_) => {
-            Kind::Number(field.number(&FINITE, problems)?)
+            Kind::Number(field.number(problems)?)
         }
-        Value::List(_) => {
-            let values: Vec<_> = field
-                .items(VALUE, problems)?
-                .iter()
-                .map(|item| item.number(&FINITE, problems))
-                .collect();
-            Kind::Numbers(v1::NumberList {
-                values: values.into_iter().collect::<Option<_>>()?,
-            })
-        }
-        Value::Date(_) | Value::Table(_) => return field.wrong_type(VALUE, problems),
+        Value::List(_) => Kind::Numbers(v1::NumberList {
+            values: field.numbers(problems)?,
+        }),
+        Value::Date(_) | Value::Table(_) => return field.refuse(VALUE, problems),
     };
     Some(v1::Value { kind: Some(kind) })
 }

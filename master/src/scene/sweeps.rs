@@ -3,48 +3,116 @@
 use super::assign::Assignment;
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
 use super::step_control::read_step;
+use crate::reading::key::{FINITE, Key, POSITIVE, Takes, texts};
 use crate::reading::overrides::Override;
-use crate::reading::reader::{FINITE, Field, POSITIVE, Problems, Section};
+use crate::reading::reader::{Field, Problems, Section, choice, collect, given};
 use crate::reading::written::{Node, Table, Value};
 
+pub(super) const CASE: [Key; 2] = [
+    Key::new("name", Takes::Text)
+        .required("name = \"index 1\"")
+        .means("names the case and its folder"),
+    SET,
+];
+pub(super) const SET: Key = Key::new("set", Takes::Open(&[])).default("nothing").means(
+    "dotted keys and their values, as in [changes from the command \
+     line](scene.md#changes-from-the-command-line)",
+);
+pub(super) const MACRO_STEPS: Key = Key::new(
+    "macro_steps",
+    Takes::List(
+        &Takes::Number(POSITIVE),
+        "a list of two or more different macro steps",
+    ),
+)
+.required("macro_steps = [1e-2, 1e-3, 1e-4]")
+.means("two or more different macro steps, s");
+pub(super) const CONVERGE: [Key; 2] = [
+    MACRO_STEPS,
+    Key::new("reference", Takes::Choice(&texts(&REFERENCES)))
+        .default_first()
+        .means("what is compared with; `\"automatic\"`: the first of the others that there is"),
+];
 const REFERENCES: [(&str, Reference); 4] = [
     ("automatic", Reference::Automatic),
     ("closed-form", Reference::ClosedForm),
     ("monolithic", Reference::Monolithic),
     ("finest", Reference::Finest),
 ];
+pub(super) const STABILITY: [Key; 2] = [map_axis("x"), map_axis("y")];
+
+const fn map_axis(name: &'static str) -> Key {
+    Key::new(name, Takes::Table(|| AXIS.to_vec()))
+        .required("{ key = \"coupling.macro_step\", from = 1e-4, to = 1e-2, points = 25 }")
+        .means("an axis of the map")
+}
+
+const AXIS: [Key; 7] = [
+    Key::new(
+        "key",
+        Takes::Either(&[
+            Takes::Text,
+            Takes::List(
+                &Takes::Text,
+                "a key such as \"coupling.beta\", or a list of keys",
+            ),
+        ]),
+    )
+    .required("key = \"coupling.macro_step\"")
+    .means("the dotted keys that vary, all with one value"),
+    Key::new("label", Takes::Text)
+        .default("last part of `key`")
+        .means("label of the axis"),
+    Key::new(
+        "values",
+        Takes::List(&Takes::Number(FINITE), "a list of two or more numbers"),
+    )
+    .default("")
+    .means("the values; or else"),
+    LINEAR_GRID[0].default(WITHOUT_VALUES),
+    LINEAR_GRID[1].default(WITHOUT_VALUES),
+    LINEAR_GRID[2].default(WITHOUT_VALUES),
+    SCALE,
+];
+const WITHOUT_VALUES: &str = "required without `values`";
+/// Values from the first to the last at equal distances.
+pub(super) const LINEAR_GRID: [Key; 3] = [
+    Key::new("from", Takes::Number(FINITE))
+        .required("from = 1e2")
+        .means("the first value"),
+    Key::new("to", Takes::Number(FINITE))
+        .required("to = 1e6")
+        .means("the last value"),
+    Key::new("points", Takes::Whole(2, MOST_POINTS))
+        .required("points = 25")
+        .means("how many there are"),
+];
+const SCALE: Key = Key::new("scale", Takes::Choice(&texts(&SCALES)))
+    .default_first()
+    .means("`\"linear\"`: equal distances; `\"log\"`: equal ratios");
+const SCALES: [(&str, Scale); 2] = [("linear", Scale::Linear), ("log", Scale::Log)];
 /// A map has at most this many points along an axis.
 const MOST_POINTS: usize = 1000;
-const KEYS_OF_AXIS: &str = "a key such as \"coupling.beta\", or a list of keys";
-const STEPS: &str = "a list of two or more different macro steps";
-const VALUES: &str = "a list of two or more numbers";
 
 pub(super) fn read_case(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Case> {
-    section.allow_only(&["name", "set"], problems);
-    let name_field = section.require("name", "name = \"index 1\"", problems);
-    let name = name_field.and_then(|field| match field.text(problems)? {
-        "" => field.wrong_type("a text that is not empty", problems),
-        name => Some(name.to_owned()),
+    let [name, set] = section.read(&CASE, problems);
+    let name = name.and_then(|field| field.filled_text(problems));
+    let overrides = given(set, |field| {
+        let over_ride = |(key, field): (&str, Field<'_>)| Override {
+            key: key.to_owned(),
+            value: field.node.to_toml().to_string(),
+        };
+        Some(field.section(problems)?.entries().map(over_ride).collect())
     });
-    let overrides = match section.get("set") {
-        Some(field) => field.section(problems).map(|set| {
-            let over_ride = |(key, field): (&str, Field<'_>)| Override {
-                key: key.to_owned(),
-                value: field.node.to_toml().to_string(),
-            };
-            set.fields().map(over_ride).collect()
-        }),
-        None => Some(Vec::new()),
-    };
     Some(Case {
         name: name?,
-        overrides: overrides?,
+        overrides: overrides?.unwrap_or_default(),
     })
 }
 
 /// What the key `set` of a table sets, with the places in the file.
 pub(super) fn set_assignments(table: &Table) -> Vec<Assignment> {
-    let Some(Value::Table(set)) = table.get("set").map(|entry| &entry.node.value) else {
+    let Some(Value::Table(set)) = table.get(SET.name).map(|entry| &entry.node.value) else {
         return Vec::new();
     };
     set.iter()
@@ -61,15 +129,9 @@ pub(super) fn read_converge(
     duration: Option<f64>,
     problems: &mut Problems<'_>,
 ) -> Option<ConvergeSettings> {
-    section.allow_only(&["macro_steps", "reference"], problems);
-    let macro_steps = section
-        .require("macro_steps", "macro_steps = [1e-2, 1e-3, 1e-4]", problems)
-        .and_then(|field| read_macro_steps(&field, duration, problems));
-    let reference = section
-        .get("reference")
-        .map_or(Some(Reference::Automatic), |field| {
-            field.choice(&REFERENCES, problems)
-        });
+    let [macro_steps, reference] = section.read(&CONVERGE, problems);
+    let macro_steps = macro_steps.and_then(|field| read_macro_steps(&field, duration, problems));
+    let reference = choice(reference, &REFERENCES, problems);
     Some(ConvergeSettings {
         macro_steps: macro_steps?,
         reference: reference?,
@@ -81,17 +143,14 @@ pub(super) fn read_macro_steps(
     duration: Option<f64>,
     problems: &mut Problems<'_>,
 ) -> Option<Vec<f64>> {
-    let steps: Vec<Option<f64>> = field
-        .items(STEPS, problems)?
-        .iter()
-        .map(|item| read_step(item, duration, problems))
-        .collect();
-    let steps = steps.into_iter().collect::<Option<Vec<f64>>>()?;
+    let steps = collect(&field.items(problems)?, |item| {
+        read_step(item, duration, problems)
+    })?;
     let mut different = steps.clone();
     different.sort_by(f64::total_cmp);
     different.dedup();
     if steps.len() < 2 || different.len() < steps.len() {
-        return field.wrong_type(STEPS, problems);
+        return field.refuse(&field.list().1, problems);
     }
     Some(steps)
 }
@@ -100,33 +159,26 @@ pub(super) fn read_stability(
     section: &Section<'_>,
     problems: &mut Problems<'_>,
 ) -> Option<StabilitySettings> {
-    section.allow_only(&["x", "y"], problems);
-    let example = "{ key = \"coupling.macro_step\", from = 1e-4, to = 1e-2, points = 25 }";
-    let mut axis = |name| {
-        let field = section.require(name, example, problems)?;
-        let axis = field.section(problems)?;
+    let [x, y] = section.read(&STABILITY, problems);
+    let mut axis = |field: Option<Field<'_>>| {
+        let axis = field?.section(problems)?;
         read_axis(&axis, problems)
     };
-    let (x, y) = (axis("x"), axis("y"));
+    let (x, y) = (axis(x), axis(y));
     Some(StabilitySettings { x: x?, y: y? })
 }
 
 fn read_axis(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Axis> {
-    let keys = section
-        .require("key", "key = \"coupling.macro_step\"", problems)
-        .and_then(|field| read_keys(&field, problems));
-    let label = match section.get("label") {
-        Some(field) => field.text(problems).map(|text| Some(text.to_owned())),
-        None => Some(None),
-    };
-    let values = match section.get("values") {
+    let [key, label, values, ..] = section.fields(&AXIS, problems);
+    let keys = key.and_then(|field| read_keys(&field, problems));
+    let label = given(label, |field| field.text(problems).map(str::to_owned));
+    let values = match values {
         Some(field) => {
-            section.allow_only(&["key", "label", "values"], problems);
+            section.allow_only(&AXIS[..3], problems);
             read_values(&field, problems)
         }
         None => {
-            let allowed = ["key", "label", "values", "from", "to", "points", "scale"];
-            section.allow_only(&allowed, problems);
+            section.allow_only(&AXIS, problems);
             read_range(section, problems)
         }
     };
@@ -143,25 +195,15 @@ fn read_keys(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<Strin
     if let Some(key) = field.peek_text() {
         return Some(vec![key.to_owned()]);
     }
-    let keys = field.texts(KEYS_OF_AXIS, problems)?;
-    Some(
-        keys.iter()
-            .filter_map(Field::peek_text)
-            .map(str::to_owned)
-            .collect(),
-    )
+    let keys = field.texts(problems)?;
+    collect(&keys, |key| key.text(problems).map(str::to_owned))
 }
 
 fn read_values(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
-    let items = field.items(VALUES, problems)?;
-    if items.len() < 2 {
-        return field.wrong_type(VALUES, problems);
+    if field.items(problems)?.len() < 2 {
+        return field.refuse(&field.list().1, problems);
     }
-    let values: Vec<_> = items
-        .iter()
-        .map(|item| item.number(&FINITE, problems))
-        .collect();
-    values.into_iter().collect()
+    field.numbers(problems)
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -171,27 +213,20 @@ enum Scale {
 }
 
 fn read_range(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Vec<f64>> {
-    let scale = section.get("scale").map_or(Some(Scale::Linear), |field| {
-        field.choice(&[("linear", Scale::Linear), ("log", Scale::Log)], problems)
-    });
+    let [from, to_field, points] = section.fields(&LINEAR_GRID, problems);
+    let scale = choice(section.get(&SCALE), &SCALES, problems);
     let range = match scale {
         Some(Scale::Log) => &POSITIVE,
         _ => &FINITE,
     };
-    let from = section
-        .require("from", "from = 1e2", problems)
-        .and_then(|field| field.number(range, problems));
-    let to_field = section.require("to", "to = 1e6", problems);
+    let from = from.and_then(|field| field.number_within(range, problems));
     let to = to_field
         .as_ref()
-        .and_then(|field| field.number(range, problems));
-    let points = section
-        .require("points", "points = 25", problems)
-        .and_then(|field| field.whole(2, MOST_POINTS, problems));
+        .and_then(|field| field.number_within(range, problems));
+    let points = points.and_then(|field| field.whole(problems));
     let (from, to, points, scale) = (from?, to?, points?, scale?);
     if from == to || !(to - from).is_finite() || !(to / from.abs().max(1.0)).is_finite() {
-        return to_field?
-            .out_of_range("another number than `from`, at a finite distance", problems);
+        return to_field?.refuse("another number than `from`, at a finite distance", problems);
     }
     Some(
         (0..points)
@@ -205,7 +240,7 @@ pub(super) fn read_linear_grid(
     section: &Section<'_>,
     problems: &mut Problems<'_>,
 ) -> Option<Vec<f64>> {
-    section.allow_only(&["from", "to", "points"], problems);
+    section.allow_only(&LINEAR_GRID, problems);
     let mut values = read_range(section, problems)?;
     values.sort_by(f64::total_cmp);
     Some(values)

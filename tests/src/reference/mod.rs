@@ -1,8 +1,13 @@
-//! Pages of the reference that are written from the program itself: command line, built-in models, contract.
+//! Pages of the reference that are written from the program itself: command line, built-in models, contract, and the keys of
+//! scene, study and spectrum files, with their JSON schemas.
+
+use linchpin_master::scene::{SCENE_KEYS, SPECTRUM_KEYS, STUDY_KEYS};
 
 mod command_line;
 mod contract;
+mod keys;
 mod models;
+mod schema;
 
 /// Command that writes the pages.
 pub const COMMAND: &str = "cargo run --release -p linchpin-tests --example reference";
@@ -11,11 +16,20 @@ pub const COMMAND: &str = "cargo run --release -p linchpin-tests --example refer
 const WIDTH: usize = 110;
 
 /// The pages under docs/reference: name of the file and text.
-pub fn pages() -> [(&'static str, String); 3] {
+pub fn pages() -> [(&'static str, String); 8] {
+    let scene = ("scene file", &SCENE_KEYS[..]);
+    let study = ("study file", &STUDY_KEYS[..]);
+    let spectrum = ("spectrum file", &SPECTRUM_KEYS[..]);
+    let schema = |(title, keys)| schema::schema(&format!("Linchpin {title}"), keys);
     [
         ("command-line.md", command_line::page()),
         ("models.md", models::page()),
         ("contract.md", contract::page()),
+        ("scene.md", keys::page("scene.md", &[scene])),
+        ("studies.md", keys::page("studies.md", &[study, spectrum])),
+        ("scene.schema.json", schema(scene)),
+        ("study.schema.json", schema(study)),
+        ("spectrum.schema.json", schema(spectrum)),
     ]
 }
 

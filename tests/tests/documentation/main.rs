@@ -11,6 +11,6 @@ mod links;
 mod messages;
 mod page;
 mod reference;
-mod scene_keys;
+mod schemas;
 mod stations;
 mod walk;

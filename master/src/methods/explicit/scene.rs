@@ -4,9 +4,10 @@ use serde::Serialize;
 
 use super::coupling::ExplicitCoupling;
 use crate::joint::Level;
-use crate::methods::definition::{Definition, Given, Instability, Lacking, Parameters};
+use crate::methods::definition::{DEGREE, Definition, Given, Instability, Lacking, Parameters};
 use crate::methods::method::Built;
-use crate::reading::formula::{Formula, Steps, Unit};
+use crate::reading::formula::{Formula, Steps};
+use crate::reading::key::{Key, POSITIVE, Takes, Unit};
 use crate::reading::reader::{Problems, Section};
 
 /// The explicit index-1 method of Gu & Asada: (mu d/dt + 1)^2 g = 0.
@@ -16,12 +17,20 @@ pub struct Explicit {
     pub mu: Formula,
 }
 
+const MU: Key = Key::new("mu", Takes::Formula(Unit::Time, POSITIVE))
+    .required("mu = \"10H\"")
+    .default("required for explicit")
+    .means(
+        "time constant of the closing, s, such as `\"10H\"`; H of the step that has just \
+         ended. Smaller: more accurate, less stable",
+    );
+
 /// A limit is met if it is missed by rounding only.
 const ROUNDING: f64 = 1e-12;
 
 impl Definition for Explicit {
     const NAME: &'static str = "explicit";
-    const KEYS: &'static [&'static str] = &["degree", "mu"];
+    const KEYS: &'static [Key] = &[DEGREE, MU];
     const HIGHEST_DEGREE: usize = 0;
 
     fn read(
@@ -29,8 +38,8 @@ impl Definition for Explicit {
         steps: Option<Steps>,
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
-        let field = section.require("mu", "mu = \"10H\"", problems)?;
-        let formula = Formula::read_positive(&field, Unit::Time, problems)?;
+        let field = section.require(&MU, problems)?;
+        let formula = Formula::read(&field, problems)?;
         let mu = formula
             .over(steps?, &field.key)
             .map_err(|kind| field.report(kind, problems));

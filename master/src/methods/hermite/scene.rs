@@ -6,10 +6,11 @@ use super::coupling::HermiteCoupling;
 use super::moments::Rule;
 use super::variant::{Family, HIGHEST_DEGREE, LEAST_DEGREE, Variant};
 use crate::joint::Level;
-use crate::methods::definition::{Definition, Given, Lacking, OwnCurves, Parameters};
+use crate::methods::definition::{Definition, DEGREE, EXCHANGED_DEGREE, Given, Lacking, OwnCurves, Parameters};
 use crate::methods::method::Built;
 use crate::reading::formula::Steps;
-use crate::reading::reader::{Field, Problems, Section};
+use crate::reading::key::{Key, Takes, texts};
+use crate::reading::reader::{Field, Problems, Section, choice};
 use crate::signal::{AUTOMATIC_DEGREE, Degree, History, MAX_DEGREE, Variables};
 
 /// Polynomials of their own on every macro step.
@@ -35,13 +36,27 @@ const INSTANTS: usize = 4;
 /// More are not needed for responses of 48 rad within a step.
 const MOST_INSTANTS: usize = 16;
 
+const KEYS: [Key; 4] = [
+    Key::new("variant", Takes::Choice(&texts(&VARIANTS)))
+        .default_first()
+        .means("[what holds at the start of a step](../theory/hermite.md#the-variants)"),
+    DEGREE,
+    Key::new("instants", Takes::Whole(1, MOST_INSTANTS))
+        .default("4, or the degree if that is more")
+        .means(
+            "instants inside a macro step at which the workers tell their positions, for degree 3 and more \
+             and for connected signals; at least degree - 1. More tell faster responses apart: 3 rad within a step each",
+        ),
+    Key::new("limiter", Takes::Choice(&texts(&SWITCH)))
+        .default_first()
+        .means("whether the [top condition is relaxed](../theory/moments.md#the-limiter) where the top coefficient does not fall"),
+];
 const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
-
 const VARIANTS: [(&str, Variant); 2] = [("apv", Variant::Apv), ("c0pv", Variant::C0pv)];
 
 impl Definition for Hermite {
     const NAME: &'static str = "hermite";
-    const KEYS: &'static [&'static str] = &["variant", "degree", "instants", "limiter"];
+    const KEYS: &'static [Key] = &KEYS;
     const CORRECTS: bool = true;
     const LOWEST_DEGREE: usize = LEAST_DEGREE;
     const EXCHANGED_DEGREE: Option<usize> = Some(MAX_DEGREE);
@@ -51,32 +66,28 @@ impl Definition for Hermite {
         _steps: Option<Steps>,
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
-        let field = section.get("variant");
-        let variant = field.map_or(Some(Variant::Apv), |field| {
-            field.choice(&VARIANTS, problems)
-        });
-        let degree = section
-            .get("degree")
-            .map_or(Some(Degree::Fixed(LEAST_DEGREE)), |field| {
-                read_degree(&field, problems)
-            });
+        let [variant, degree, instants, limiter] = section.fields(&KEYS, problems);
+        let variant = choice(variant, &VARIANTS, problems);
+        let degree = match degree {
+            Some(field) => read_degree(&field, problems),
+            None => Some(Degree::Fixed(LEAST_DEGREE)),
+        };
         let highest = match degree {
             None | Some(Degree::Automatic) => HIGHEST_DEGREE,
             Some(Degree::Fixed(degree)) => degree,
         };
-        let instants = section.get("instants").map_or(Some(INSTANTS.max(highest)), |field| {
-            field.whole(highest - 1, MOST_INSTANTS, problems)
-        });
-        let limiter = section
-            .get("limiter")
-            .map_or(Some(true), |field| field.choice(&SWITCH, problems));
+        let instants = match instants {
+            Some(field) => field.whole_within(highest - 1, MOST_INSTANTS, problems),
+            None => Some(INSTANTS.max(highest)),
+        };
+        let limiter = choice(limiter, &SWITCH, problems);
         Some(Self {
             limiter: limiter?,
             variant: variant?,
             degree: highest,
             degree_follows: degree? == Degree::Automatic,
             instants: instants?,
-            continues_signals: section.get("exchanged_degree").is_some(),
+            continues_signals: section.get(&EXCHANGED_DEGREE).is_some(),
         })
     }
 }
@@ -133,7 +144,7 @@ fn read_degree(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Degree>
     if field.peek_text().is_some() {
         return field.choice(&[(AUTOMATIC_DEGREE, Degree::Automatic)], problems);
     }
-    let degree = field.whole(LEAST_DEGREE, HIGHEST_DEGREE, problems);
+    let degree = field.whole_within(LEAST_DEGREE, HIGHEST_DEGREE, problems);
     degree.map(Degree::Fixed)
 }
 

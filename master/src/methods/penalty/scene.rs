@@ -6,10 +6,11 @@ use super::coupling::{PenaltyCoupling, write_loads};
 use super::spring::Spring;
 use crate::joint::Level;
 use crate::layout::Layout;
-use crate::methods::definition::{Definition, Given, Lacking, Parameters};
+use crate::methods::definition::{DEGREE, Definition, Given, Lacking, Parameters};
 use crate::methods::method::{Built, Order};
-use crate::reading::formula::{Formula, Steps, Unit};
-use crate::reading::reader::{Problems, Section};
+use crate::reading::formula::{Formula, Steps};
+use crate::reading::key::{Key, NOT_NEGATIVE, POSITIVE, Takes, Unit, texts};
+use crate::reading::reader::{Field, Problems, Section, choice};
 
 /// Force of a spring and damper in place of the multiplier, on both ends.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -28,16 +29,56 @@ const ORDERS: [(&str, Order); 2] = [
     ("gauss-seidel", Order::GaussSeidel),
 ];
 
+const KEYS: [Key; 6] = [
+    DEGREE,
+    Key::new("order", Takes::Choice(&texts(&ORDERS)))
+        .default_first()
+        .means(
+            "`\"jacobi\"`, all subsystems step at once; `\"gauss-seidel\"`, one after the other \
+             as the scene lists them",
+        ),
+    LINEAR[0],
+    LINEAR[1],
+    ANGULAR[0],
+    ANGULAR[1],
+];
+
+/// Stiffness and damping of the spring for lengths.
+const LINEAR: [Key; 2] = [
+    Key::new("stiffness", Takes::Formula(Unit::PerTimeSquared, POSITIVE))
+        .required("stiffness = 1e6")
+        .default("required for penalty if a joint holds lengths")
+        .means("spring, N/m"),
+    Key::new("damping", Takes::Formula(Unit::PerTime, NOT_NEGATIVE))
+        .default_number(0.0)
+        .means(
+            "damper, N s/m; multiples of 1/H and 1/H^2 are masses, for one macro step \
+             of the whole run",
+        ),
+];
+
+/// The same of that for angles.
+const ANGULAR: [Key; 2] = [
+    Key::new(
+        "angular_stiffness",
+        Takes::Formula(Unit::PerTimeSquared, POSITIVE),
+    )
+    .required("angular_stiffness = 1e4")
+    .default(
+        "required for penalty if a joint holds angles (`perpendicular` and what is made of it)",
+    )
+    .means("spring, N m for an angle of 1 rad"),
+    Key::new(
+        "angular_damping",
+        Takes::Formula(Unit::PerTime, NOT_NEGATIVE),
+    )
+    .default_number(0.0)
+    .means("damper for angles, N m s"),
+];
+
 impl Definition for Penalty {
     const NAME: &'static str = "penalty";
-    const KEYS: &'static [&'static str] = &[
-        "degree",
-        "order",
-        "stiffness",
-        "damping",
-        "angular_stiffness",
-        "angular_damping",
-    ];
+    const KEYS: &'static [Key] = &KEYS;
 
     /// Springs for lengths and for angles. At least one is needed; which one the joints need is known when the models have
     /// described their markers.
@@ -47,19 +88,15 @@ impl Definition for Penalty {
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
         let steps = steps?;
-
-        let order = section
-            .get("order")
-            .map_or(Some(Order::Jacobi), |field| field.choice(&ORDERS, problems));
-        let has = |(stiffness, _, damping): SpringKeys| {
-            section.get(stiffness).is_some() || section.get(damping).is_some()
-        };
-        let angles = match has(ANGULAR) {
-            true => read_spring(section, ANGULAR, steps, problems).map(Some),
+        let [_, order, ..] = section.fields(&KEYS, problems);
+        let order = choice(order, &ORDERS, problems);
+        let has = |keys: &'static [Key; 2]| keys.iter().any(|key| section.get(key).is_some());
+        let angles = match has(&ANGULAR) {
+            true => read_spring(section, &ANGULAR, steps, problems).map(Some),
             false => Some(None),
         };
-        let lengths = match has(LINEAR) || !has(ANGULAR) {
-            true => read_spring(section, LINEAR, steps, problems).map(Some),
+        let lengths = match has(&LINEAR) || !has(&ANGULAR) {
+            true => read_spring(section, &LINEAR, steps, problems).map(Some),
             false => Some(None),
         };
         Some(Self {
@@ -125,35 +162,19 @@ fn springs_of(
     (0..layout.rows.len()).map(spring_of).collect()
 }
 
-/// The keys of a spring: stiffness with an example, damping.
-type SpringKeys = (&'static str, &'static str, &'static str);
-
-const LINEAR: SpringKeys = ("stiffness", "stiffness = 1e6", "damping");
-
-const ANGULAR: SpringKeys = (
-    "angular_stiffness",
-    "angular_stiffness = 1e4",
-    "angular_damping",
-);
-
 fn read_spring(
     section: &Section<'_>,
-    (stiffness, example, damping): SpringKeys,
+    [stiffness, damping]: &'static [Key; 2],
     steps: Steps,
     problems: &mut Problems<'_>,
 ) -> Option<Spring> {
-    let stiffness = section
-        .require(stiffness, example, problems)
-        .and_then(|field| {
-            let formula = Formula::read_positive(&field, Unit::PerTimeSquared, problems)?;
-            let value = formula.fixed(steps, &field.key);
-            value.map_err(|kind| field.report(kind, problems)).ok()
-        });
-    let damping = section.get(damping).map_or(Some(0.0), |field| {
-        let formula = Formula::read(&field, Unit::PerTime, problems)?;
-        let value = formula.fixed(steps, &field.key);
+    let stiffness = section.require(stiffness, problems);
+    let mut read = |field: Field<'_>| {
+        let value = Formula::read(&field, problems)?.fixed(steps, &field.key);
         value.map_err(|kind| field.report(kind, problems)).ok()
-    });
+    };
+    let stiffness = stiffness.and_then(&mut read);
+    let damping = section.get(damping).map_or(Some(0.0), read);
     Some(Spring {
         stiffness: stiffness?,
         damping: damping?,

@@ -8,9 +8,10 @@ use super::stability;
 use super::weights::Weights;
 use crate::joint::Level;
 use crate::methods::condition::Condition;
-use crate::methods::definition::{Definition, Given, Instability, Lacking, Parameters};
+use crate::methods::definition::{DEGREE, Definition, Given, Instability, Lacking, Parameters};
 use crate::methods::method::Built;
-use crate::reading::formula::{Formula, Steps, Unit};
+use crate::reading::formula::{Formula, Steps};
+use crate::reading::key::{Key, NOT_NEGATIVE, Takes, Unit};
 use crate::reading::reader::{Problems, Section};
 
 /// Schweizer & Lu, method 1: g + beta g' + gamma g'' = 0.
@@ -35,9 +36,36 @@ pub struct Weighted {
     pub b: f64,
 }
 
+const INDEX: Key = Key::new("index", Takes::Whole(1, 3))
+    .default("follows from the parameters")
+    .means("if given, it must fit them");
+const BAUMGARTE: [Key; 4] = [
+    DEGREE,
+    INDEX,
+    Key::new("beta", Takes::Formula(Unit::Time, NOT_NEGATIVE))
+        .default("2H if index 1 or 2 needs it")
+        .means(
+            "weight of the velocity level, s. Larger: smoother multipliers, slower closing of \
+             the joint",
+        ),
+    Key::new("gamma", Takes::Formula(Unit::TimeSquared, NOT_NEGATIVE))
+        .default("H^2 if index 1 needs it")
+        .means("weight of the acceleration level, s^2"),
+];
+const WEIGHTED: [Key; 4] = [
+    DEGREE,
+    INDEX,
+    Key::new("a", Takes::Formula(Unit::Plain, NOT_NEGATIVE))
+        .default("2 if index 1 or 2 needs it")
+        .means("weight of the velocity multiplier"),
+    Key::new("b", Takes::Formula(Unit::Plain, NOT_NEGATIVE))
+        .default("2.6 if index 1 needs it")
+        .means("weight of the acceleration multiplier"),
+];
+
 impl Definition for Baumgarte {
     const NAME: &'static str = "baumgarte";
-    const KEYS: &'static [&'static str] = &["degree", "index", "beta", "gamma"];
+    const KEYS: &'static [Key] = &BAUMGARTE;
     const CORRECTS: bool = true;
     const MAY_CHANGE_DEGREE: bool = true;
 
@@ -48,8 +76,9 @@ impl Definition for Baumgarte {
     ) -> Option<Self> {
         let weights = Weights {
             method: Self::NAME,
-            first: ("beta", Formula::multiple(2.0, Unit::Time)),
-            second: ("gamma", Formula::multiple(1.0, Unit::TimeSquared)),
+            keys: &BAUMGARTE,
+            first: Formula::multiple(2.0, Unit::Time),
+            second: Formula::multiple(1.0, Unit::TimeSquared),
         };
         let (index, beta, gamma) = weights.resolve(section, steps, problems)?;
         Some(Self { index, beta, gamma })
@@ -84,7 +113,7 @@ impl Parameters for Baumgarte {
 
 impl Definition for Weighted {
     const NAME: &'static str = "weighted";
-    const KEYS: &'static [&'static str] = &["degree", "index", "a", "b"];
+    const KEYS: &'static [Key] = &WEIGHTED;
     const CORRECTS: bool = true;
     const MAY_CHANGE_DEGREE: bool = true;
 
@@ -95,8 +124,9 @@ impl Definition for Weighted {
     ) -> Option<Self> {
         let weights = Weights {
             method: Self::NAME,
-            first: ("a", Formula::multiple(2.0, Unit::Plain)),
-            second: ("b", Formula::multiple(2.6, Unit::Plain)),
+            keys: &WEIGHTED,
+            first: Formula::multiple(2.0, Unit::Plain),
+            second: Formula::multiple(2.6, Unit::Plain),
         };
         let (index, a, b) = weights.resolve(section, steps, problems)?;
         let [a, b] = [a, b].map(Formula::number);

@@ -3,14 +3,16 @@
 use super::index::Index;
 use crate::reading::error_kind::SceneErrorKind;
 use crate::reading::formula::{Formula, Steps};
-use crate::reading::place::Spot;
-use crate::reading::reader::{Field, Problems, Section};
+use crate::reading::key::Key;
+use crate::reading::reader::{Field, Problems, Section, given};
 
-/// The two parameters of a method, the weights of velocity and acceleration: their names and defaults.
+/// The two parameters of a method, the weights of velocity and acceleration, with their defaults.
 pub(super) struct Weights {
     pub(super) method: &'static str,
-    pub(super) first: (&'static str, Formula),
-    pub(super) second: (&'static str, Formula),
+    /// Degree, index, and the two.
+    pub(super) keys: &'static [Key; 4],
+    pub(super) first: Formula,
+    pub(super) second: Formula,
 }
 
 /// The index that belongs to two weights, if any does.
@@ -31,28 +33,41 @@ impl Weights {
         steps: Option<Steps>,
         problems: &mut Problems<'_>,
     ) -> Option<(Index, Formula, Formula)> {
-        let index = read_optional(section.get("index"), |field| read_index(field, problems));
-        let first = read_weight(section, self.first, problems);
-        let second = read_weight(section, self.second, problems);
+        let [_, index_field, first_field, second_field] = section.fields(self.keys, problems);
+        let index = given(index_field.clone(), |field| read_index(field, problems));
+        let mut weight = |field: &Option<Field<'_>>| {
+            given(field.clone(), |field| Formula::read(field, problems))
+        };
+        let (first, second) = (weight(&first_field), weight(&second_field));
         let (given, first, second) = (index?, first?, second?);
         let nothing_given = given.is_none() && first.is_none() && second.is_none();
         let assumed = given.or(nothing_given.then_some(Index::One));
         let first = first.unwrap_or(match assumed {
-            Some(Index::One | Index::Two) => self.first.1,
+            Some(Index::One | Index::Two) => self.first,
             _ => Formula::ZERO,
         });
         let second = second.unwrap_or(match assumed {
-            Some(Index::One) => self.second.1,
+            Some(Index::One) => self.second,
             _ => Formula::ZERO,
         });
         let fits = index_of(first, second);
         let Some(index) = fits.filter(|fits| given.is_none_or(|given| given == *fits)) else {
             let kind = self.contradiction(given, fits, first, second);
-            problems.report(self.latest_spot(section), kind);
+            // What was set last: an override is more likely to be the mistake.
+            let fields = [second_field, first_field, index_field];
+            let spots = fields.iter().flatten().map(|field| &field.node.spot);
+            let latest = spots.max_by_key(|spot| spot.source);
+            problems.report(latest.unwrap_or(section.spot), kind);
             return None;
         };
-        let first = value(first, steps?, self.first.0, section, problems);
-        let second = value(second, steps?, self.second.0, section, problems);
+        let steps = steps?;
+        let mut value = |formula: Formula, field: Option<Field<'_>>, key: &Key| {
+            let spot = field.map_or(section.spot, |field| &field.node.spot);
+            let value = formula.over(steps, &section.key_of(key.name));
+            value.map_err(|kind| problems.report(spot, kind)).ok()
+        };
+        let first = value(first, first_field, &self.keys[2]);
+        let second = value(second, second_field, &self.keys[3]);
         Some((index, first?, second?))
     }
 
@@ -63,13 +78,13 @@ impl Weights {
         first: Formula,
         second: Formula,
     ) -> SceneErrorKind {
-        let (first_name, second_name) = (self.first.0, self.second.0);
+        let [_, _, first_name, second_name] = self.keys.each_ref().map(|key| key.name);
         let second = format!("{second_name} = {second}");
         let Some(index) = given else {
             return SceneErrorKind::NoSuchIndex {
                 first_name,
                 second,
-                example: self.first.1.to_string(),
+                example: self.first.to_string(),
             };
         };
         SceneErrorKind::IndexContradiction {
@@ -85,60 +100,12 @@ impl Weights {
             fits: fits.map(Index::number),
         }
     }
-
-    /// The index, or that of its parameters that was set last: an override is more likely to be the mistake.
-    fn latest_spot<'w>(&self, section: &Section<'w>) -> &'w Spot {
-        [self.second.0, self.first.0, "index"]
-            .iter()
-            .filter_map(|name| section.get(name))
-            .map(|field| &field.node.spot)
-            .max_by_key(|spot| spot.source)
-            .unwrap_or(section.spot)
-    }
-}
-
-fn read_weight(
-    section: &Section<'_>,
-    (name, default): (&'static str, Formula),
-    problems: &mut Problems<'_>,
-) -> Option<Option<Formula>> {
-    read_optional(section.get(name), |field| {
-        Formula::read(field, default.unit(), problems)
-    })
-}
-
-/// Absent is `Some(None)`; `None` is a mistake that has been reported.
-fn read_optional<'w, T>(
-    field: Option<Field<'w>>,
-    read: impl FnOnce(&Field<'w>) -> Option<T>,
-) -> Option<Option<T>> {
-    match field {
-        Some(field) => read(&field).map(Some),
-        None => Some(None),
-    }
 }
 
 fn read_index(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Index> {
-    match field.whole(1, 3, problems)? {
+    match field.whole(problems)? {
         1 => Some(Index::One),
         2 => Some(Index::Two),
         _ => Some(Index::Three),
     }
-}
-
-fn value(
-    formula: Formula,
-    steps: Steps,
-    name: &str,
-    section: &Section<'_>,
-    problems: &mut Problems<'_>,
-) -> Option<Formula> {
-    let field = section.get(name);
-    let spot = field
-        .as_ref()
-        .map_or(section.spot, |field| &field.node.spot);
-    formula
-        .over(steps, &section.key_of(name))
-        .map_err(|kind| problems.report(spot, kind))
-        .ok()
 }

@@ -12,7 +12,8 @@ use super::saved::{Saved, Unreadable};
 use crate::joint::Level;
 use crate::layout::Layout;
 use crate::reading::formula::Steps;
-use crate::reading::reader::{POSITIVE, Problems, Section};
+use crate::reading::key::{Key, POSITIVE, Takes};
+use crate::reading::reader::{Problems, Section};
 use crate::signal::{Curve, Curves, History, Lagrange};
 use crate::system::{Outputs, motion_of};
 
@@ -23,9 +24,13 @@ pub struct Held {
     pub spring: f64,
 }
 
+const KEYS: [Key; 1] = [Key::new("spring", Takes::Number(POSITIVE))
+    .required("spring = 1e3")
+    .means("stiffness, N/m")];
+
 impl Definition for Held {
     const NAME: &'static str = "held";
-    const KEYS: &'static [&'static str] = &["spring"];
+    const KEYS: &'static [Key] = &KEYS;
     const HIGHEST_DEGREE: usize = 0;
 
     fn read(
@@ -33,8 +38,8 @@ impl Definition for Held {
         _steps: Option<Steps>,
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
-        let field = section.require("spring", "spring = 1e3", problems)?;
-        let spring = field.number(&POSITIVE, problems)?;
+        let [spring] = section.fields(&KEYS, problems);
+        let spring = spring?.number(problems)?;
         Some(Self { spring })
     }
 }
