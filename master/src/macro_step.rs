@@ -28,7 +28,7 @@ use crate::accuracy::Estimate;
 use crate::error::RunError;
 use crate::policies::iteration::IterationControl;
 use crate::policies::step_size::StepSize;
-use crate::results::Outcome;
+use crate::results::{Outcome, Passes, Verdict};
 use crate::time::MacroStep;
 use advance::advance;
 use correcting::check_finite;
@@ -166,13 +166,24 @@ fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), Ru
     outcome.solving += reach(run, step)?;
     let mut iteration = run.iteration;
     match run.correcting() {
-        Some((mut own, _)) => {
+        Some((mut own, policies)) => {
+            let is_limited = own.method.is_limited();
             outcome.verdict = own.judge();
+            if is_limited {
+                outcome.verdict = outcome.verdict.max(Verdict::Fair);
+            }
             if iteration.learns() {
-                let missed = own.learn(iteration.has_fresh_columns());
+                let tolerance = policies.step_size.as_deref().map(StepSize::tolerance);
+                let missed = own.learn(step, iteration.has_fresh_columns(), tolerance);
+                if missed.of_allowed.is_some_and(|missed| missed > 1.0) {
+                    outcome.verdict = Verdict::Poor;
+                }
                 iteration.learn(missed);
             }
-            outcome.passes = iteration.passes();
+            outcome.passes = Passes {
+                is_limited,
+                ..iteration.passes()
+            };
         }
         None => check_finite(run.method.ends(), &run.layout, step)?,
     }

@@ -91,6 +91,12 @@ fn a_macro_step_allocates_nothing() {
             "coupling.jacobian=every-step",
         ],
         &["coupling.method=hermite"],
+        &[
+            "coupling.method=hermite",
+            "coupling.degree=3",
+            "coupling.macro_step=5e-3",
+            "scene.t_end=1",
+        ],
         &["coupling.method=hermite", "coupling.jacobian=every-step"],
         &[
             "coupling.method=hermite",

@@ -7,7 +7,7 @@ use linchpin::error_norm::ColumnError;
 use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 use linchpin_models::reference::DoublePendulum;
-use linchpin_tests::convergence::assert_all_orders;
+use linchpin_tests::convergence::{assert_all_orders, assert_least_orders};
 use linchpin_tests::evidence;
 use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
@@ -105,6 +105,17 @@ fn orders_of_hermite_coupling() {
     assert_all_orders(&cases, &LONG_STEPS, |coupling, h| {
         errors(&trajectory(coupling, h))
     });
+}
+
+/// The conditions are not linear: they are met by passes.
+#[test]
+fn orders_of_hermite_coupling_with_moments() {
+    let cases = [(3, [4e-2, 2e-2, 1e-2], 6.7), (4, [8e-2, 4e-2, 2e-2], 8.5)];
+    for (degree, steps, least) in cases {
+        let coupling = format!("hermite degree={degree} iterations={{most=8,tolerance=1e-12}}");
+        let errors = steps.map(|h| errors(&trajectory(&coupling, h)));
+        assert_least_orders(&coupling, &steps, &errors, [least; 3]);
+    }
 }
 
 /// With one corrector pass; S1's methods with k = 0 need H = 1e-3 for that.

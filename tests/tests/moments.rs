@@ -355,3 +355,43 @@ fn a_degree_that_follows_is_the_same_degree() {
         }
     }
 }
+
+/// A light part on a stiff spring without damping carries a heavy one: its vibration, which no step resolves, must not turn the heavy one.
+fn light_part() -> impl Strategy<Value = (f64, f64, f64, f64, usize)> {
+    (
+        -7.0..-2.0f64,
+        2.0..7.0f64,
+        7.0..15.0f64,
+        prop_oneof![Just(1e-3), Just(1e-6)],
+        3usize..7,
+    )
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
+
+    #[test]
+    fn light_parts_that_carry_heavy_ones_meet_the_tolerance((light, heavy, stiffness, tolerance, degree) in light_part()) {
+        let (light, heavy, stiffness) = (light.exp(), heavy.exp(), stiffness.exp());
+        let mass = |m: f64, c: f64| OscillatorParameters { m, c, d: 0.0, x0: 0.0, v0: 1.7 };
+        let masses = [mass(light, stiffness), mass(heavy, 0.0)];
+        let omega = (stiffness / (light + heavy)).sqrt();
+        let t_end = 12.0 / omega;
+        let degree = match degree {
+            6 => "automatic".to_owned(),
+            degree => degree.to_string(),
+        };
+        let settings = format!(
+            "method=hermite degree={degree} tolerance={tolerance:e} absolute_tolerance={:e} macro_step={:e}",
+            1e-3 * tolerance * 1.7 / omega, 1e-4 * t_end
+        );
+        let scene = with_settings(&scene_text(&masses, &[(0, 1)], &[0, 1]), &settings, &[&format!("scene.t_end={t_end:e}")]);
+        let trajectory = run(&scene, Place::InProcess);
+        let amplitude = 1.7 / omega;
+        let points = trajectory.column("t").into_iter().zip(trajectory.column("mass2.x"));
+        let error = points.map(|(t, x)| (x - amplitude * (omega * t).sin()).abs()).fold(0.0, f64::max) / amplitude;
+        let verdicts = &trajectory.statistics.verdicts;
+        let is_told = verdicts.poor > 0;
+        prop_assert!(is_told || error < 10.0 * tolerance, "error {error:e}, {:?}", trajectory.statistics);
+    }
+}

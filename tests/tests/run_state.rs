@@ -88,7 +88,17 @@ fn assert_resumes(name: &str, scene: &Scene) {
 }
 
 /// Every method, fixed and variable steps, degrees and columns.
-const COUPLINGS: [&[&str]; 13] = [
+const COUPLINGS: [&[&str]; 15] = [
+    &[
+        "coupling.method=hermite",
+        "coupling.degree=4",
+        "coupling.macro_step=1.1e-2",
+    ],
+    &[
+        "coupling.method=hermite",
+        "coupling.degree=automatic",
+        "coupling.tolerance=1e-11",
+    ],
     &[
         "coupling.method=baumgarte",
         "coupling.index=1",

@@ -164,12 +164,11 @@ impl Instance {
                 &request.perturbed,
                 &mut outputs,
             )?,
-            // What is not perturbed is integrated as well: its internal steps are repeated.
             instants => self.motion.look_ahead_cut(
                 Base::Committed,
                 (interval, instants),
                 &request.perturbed,
-                (&mut Vec::new(), &mut outputs),
+                (None, &mut outputs),
             )?,
         }
         self.motion.look_in_directions_cut(

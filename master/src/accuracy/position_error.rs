@@ -34,6 +34,8 @@ pub struct Correction<'a> {
 pub struct Difference<'a> {
     /// What is coupled.
     pub layout: &'a Layout,
+    /// The coupling outputs at the start of the step, if what joints inherit open from there is no part of the difference.
+    pub outputs: Option<&'a dyn Outputs>,
     /// Length of the step (s).
     pub step: f64,
     /// The system that was solved.
@@ -43,6 +45,9 @@ pub struct Difference<'a> {
     /// The difference of all unknowns.
     pub unknowns: &'a [f64],
 }
+
+/// How many times its size the closing of an open joint moves positions, or velocities times the length of the step, at most.
+const CLOSING: f64 = 4.0;
 
 /// Memory for the estimate.
 #[derive(Debug, Clone, Default)]
@@ -61,7 +66,7 @@ impl PositionErrors {
     }
 
     /// The largest difference over what is allowed: of positions at the joints, of velocities there times the length of the step, and of
-    /// connected signals, at the end of the step.
+    /// connected signals, at the end of the step. What closes a joint again that earlier steps have left open is no difference of this one.
     pub fn largest(&mut self, difference: Difference<'_>, tolerance: &Tolerance) -> Estimate {
         let Difference {
             layout,
@@ -71,7 +76,15 @@ impl PositionErrors {
         } = difference;
         let mut estimate = Estimate::NONE;
         system.raise(layout, unknowns, &mut self.raised);
-        for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
+        let ends = layout.joints.iter().enumerate();
+        for (number, end) in
+            ends.flat_map(|(number, joint)| joint.ends.iter().map(move |end| (number, end)))
+        {
+            let inherited = difference
+                .outputs
+                .map_or([[0.0; 2]; 2], |outputs| openings(layout, outputs, number));
+            let inherited =
+                inherited.map(|[opening, rate]| CLOSING * (opening + difference.step * rate));
             let subsystem = end.subsystem;
             let columns = system.columns_of(layout, subsystem);
             let change = |output: usize| {
@@ -84,18 +97,22 @@ impl PositionErrors {
             let mut allowed_angle = f64::INFINITY;
             for output in end.positions() {
                 let allowed = tolerance.allowed_of_output(subsystem, output);
-                if !end.coordinates().contains(&output) {
+                let is_angle = !end.coordinates().contains(&output);
+                if is_angle {
                     allowed_angle = allowed_angle.min(allowed);
                 }
+                let change = (change(output) - inherited[usize::from(is_angle)]).max(0.0);
                 let suspect = Suspect::Output { subsystem, output };
-                estimate.add(change(output) / allowed, 1, suspect);
+                estimate.add(change / allowed, 1, suspect);
             }
             let coordinates = end.coordinates().iter();
-            let allowed = coordinates.map(|&place| tolerance.allowed_of_output(subsystem, place));
-            let allowed = allowed.chain(std::iter::repeat(allowed_angle));
-            for (output, allowed) in end.places(Level::Velocity).zip(allowed) {
+            let allowed =
+                coordinates.map(|&place| (tolerance.allowed_of_output(subsystem, place), 0));
+            let allowed = allowed.chain(std::iter::repeat((allowed_angle, 1)));
+            for (output, (allowed, kind)) in end.places(Level::Velocity).zip(allowed) {
+                let change = (difference.step * change(output) - inherited[kind]).max(0.0);
                 let suspect = Suspect::Output { subsystem, output };
-                estimate.add(difference.step * change(output) / allowed, 1, suspect);
+                estimate.add(change / allowed, 1, suspect);
             }
         }
         for exchanged in layout.exchanged.iter().filter(|one| one.rates.is_none()) {

@@ -45,6 +45,8 @@ pub struct Corrector {
     norm: Norm,
     /// Whether the look-ahead is the first one over its step.
     is_first: bool,
+    /// Whether it is another one with new columns.
+    is_renewed: bool,
     /// Whether the step has columns and shape of the one before.
     continues: bool,
 }
@@ -75,6 +77,7 @@ impl Corrector {
             deferred: DeferredCorrection::new(unknowns),
             norm: Norm::new(layout),
             is_first: true,
+            is_renewed: false,
             continues: false,
         }
     }
@@ -140,7 +143,7 @@ impl Correcting<'_> {
         with_columns: bool,
     ) -> Result<(), RunError> {
         check_finite(self.method.ends(), self.layout, step)?;
-        self.own.is_first = true;
+        (self.own.is_first, self.own.is_renewed) = (true, false);
         self.own.check.forget();
         self.request_look(step, with_columns, Cause::Predictor);
         let nodes = self.method.nodes();
@@ -190,7 +193,7 @@ impl Correcting<'_> {
     pub fn look_again(&mut self, step: MacroStep, with_columns: bool) -> Result<(), RunError> {
         let own = &mut *self.own;
         own.check.remember(&own.end.system, &own.solution);
-        own.is_first = false;
+        (own.is_first, own.is_renewed) = (false, with_columns);
         own.continues &= !with_columns;
         self.workers.forgo_advance();
         self.request_look(step, with_columns, Cause::Pass);
@@ -218,6 +221,7 @@ impl Correcting<'_> {
         own.change.copy_from_slice(&own.solution);
         match own.is_first {
             true => own.deferred.complete_first(&mut own.change, own.continues),
+            false if own.is_renewed => own.deferred.renew(),
             false => own.deferred.add_pass(&own.change),
         }
         self.method.correct(&own.change, &own.solution, system);
@@ -244,12 +248,14 @@ impl Correcting<'_> {
 
     /// Size of the last correction; what follows from it is compared with the `tolerance` by methods whose error is known so precisely.
     pub fn size_of_change(&mut self, step: MacroStep, tolerance: Option<&Tolerance>) -> Change {
+        let now = self.workers.now();
         let own = &mut *self.own;
         let change = own.norm.of(&own.sizes, self.method.ends());
         let tolerance = tolerance.filter(|_| self.method.tells_error());
         let of_allowed = tolerance.map(|tolerance| {
             let difference = Difference {
                 layout: self.layout,
+                outputs: Some(&now),
                 step: step.length,
                 system: &own.end.system,
                 columns: own.end.columns.all(),
@@ -298,13 +304,19 @@ impl Correcting<'_> {
 
     /// Learns from the outputs after the advance what the first correction of the step has missed, so that the next first
     /// correction takes it into account; of a step `with_new_columns`, what even they leave.
-    pub fn learn(&mut self, with_new_columns: bool) -> Missed {
+    pub fn learn(
+        &mut self,
+        step: MacroStep,
+        with_new_columns: bool,
+        tolerance: Option<&Tolerance>,
+    ) -> Missed {
         let Corrector {
             end,
             remaining,
             sizes,
             norm,
             deferred,
+            position_errors,
             ..
         } = &mut *self.own;
         let system = &mut end.system;
@@ -319,12 +331,25 @@ impl Correcting<'_> {
             largest_changes(unknowns, remaining, sizes);
             norm.note_left(sizes);
         }
+        let tolerance = tolerance.filter(|_| self.method.tells_error());
+        let of_allowed = tolerance.map(|tolerance| {
+            let difference = Difference {
+                layout: self.layout,
+                outputs: None,
+                step: step.length,
+                system,
+                columns: end.columns.all(),
+                unknowns: remaining,
+            };
+            position_errors.largest(difference, tolerance).scaled
+        });
         let ends = self.method.corrected_point().w;
         let mut size = |change: &[f64]| {
             largest_changes(unknowns, change, sizes);
             norm.of(sizes, ends).of_usual
         };
         Missed {
+            of_allowed,
             by_last: size(remaining),
             by_first: deferred.learn(remaining, size),
         }

@@ -49,12 +49,12 @@ impl Correcting<'_> {
         let own_degree = self.method.degree();
         let [of_lower, mut estimate] = self.nested_differences(step, tolerance)?;
         let degree = degree.unwrap_or(own_degree);
-        estimate.scaled = nested(
+        estimate.scaled = self.nested(
             of_lower.scaled,
             estimate.scaled,
             degree as i32 - own_degree as i32,
         );
-        estimate.order = 2 * degree + 2;
+        estimate.order = 2 * degree + 1;
         estimate.is_of_step_alone = true;
         let rows = self.layout.rows.len();
         let unknowns = self.own.end.system.unknowns();
@@ -72,6 +72,7 @@ impl Correcting<'_> {
         step: MacroStep,
         tolerance: &Tolerance,
     ) -> Option<[Estimate; 2]> {
+        let now = self.workers.now();
         let own = &mut *self.own;
         let start = self.point.as_ref().map(|point| point.system());
         let system = &own.end.system;
@@ -86,6 +87,7 @@ impl Correcting<'_> {
             differences.for_each(|(error, (higher, lower))| *error = higher - lower);
             let difference = Difference {
                 layout: self.layout,
+                outputs: Some(&now),
                 step: step.length,
                 system,
                 columns: own.end.columns.all(),
@@ -96,20 +98,33 @@ impl Correcting<'_> {
         Some([differ(lower, lowest), differ(&own.solution, lower)])
     }
 
+    /// The error of a solution, with polynomials of so many degrees `more`, from the differences that the last two degrees make: the last
+    /// one, `d_p`, is the error with one degree less, and every further degree changes it by the same factor. Where the coefficients of a
+    /// multiplier do not fall as fast, which they do with the root of that factor, the step does not resolve it, and they tell the factor.
+    fn nested(&self, before: f64, last: f64, more: i32) -> f64 {
+        let of_coefficients = self.method.top_share();
+        let falls = (last / before).max(of_coefficients).min(1.0);
+        if falls.is_finite() {
+            last * falls.powf(f64::from(more) + 0.5)
+        } else {
+            last
+        }
+    }
+
     /// What the degrees around the present one would have made of the step.
     fn nested_prospects(&mut self, step: MacroStep, tolerance: &Tolerance) -> Option<Prospects> {
         let [of_lower, present] = self.nested_differences(step, tolerance)?;
         let degree = self.method.degree();
         let of = |more: i32| Prospect {
-            scaled: nested(of_lower.scaled, present.scaled, more),
-            order: (2 * degree + 2).saturating_add_signed(2 * more as isize),
+            scaled: self.nested(of_lower.scaled, present.scaled, more),
+            order: (2 * degree + 1).saturating_add_signed(2 * more as isize),
         };
         Some(Prospects {
             are_anew: true,
             smooth_points: usize::MAX,
             lower: (degree > self.method.lowest_degree()).then(|| of(-1)),
             present: Some(of(0)),
-            higher: self.method.may_rise().then(|| of(1)),
+            higher: (!self.method.is_limited()).then(|| of(1)),
         })
     }
 
@@ -256,16 +271,5 @@ fn correction<'a>(
         errors,
         share: loads.shares.position,
         order: loads.shares.order + 2,
-    }
-}
-
-/// The error of a solution, with polynomials of so many degrees `more`, from the differences that the last two degrees make: the last one,
-/// `d_p`, is the error with one degree less, and every further degree changes it by the same factor.
-fn nested(before: f64, last: f64, more: i32) -> f64 {
-    let falls = (last / before).min(1.0);
-    if falls.is_finite() {
-        last * falls.powi(more + 1)
-    } else {
-        last
     }
 }

@@ -145,8 +145,13 @@ pub trait Corrected: CouplingMethod {
         0
     }
 
-    /// Whether the solution is such that a higher degree promises anything.
-    fn may_rise(&self) -> bool {
+    /// The largest ratio of the top coefficient of a corrected multiplier to those before it.
+    fn top_share(&self) -> f64 {
+        0.0
+    }
+
+    /// Whether a condition was relaxed, since the step does not resolve its multiplier.
+    fn is_limited(&self) -> bool {
         false
     }
 

@@ -77,6 +77,12 @@ impl DeferredCorrection {
         add(change, &self.foreseen);
     }
 
+    /// The next correction of the same step has new columns: what earlier ones have missed says nothing of these.
+    pub fn renew(&mut self) {
+        self.forget();
+        self.missed.fill(0.0);
+    }
+
     /// Takes another correction of the same step.
     pub fn add_pass(&mut self, change: &[f64]) {
         add(&mut self.missed, change);

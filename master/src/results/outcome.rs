@@ -39,6 +39,8 @@ pub struct Passes {
     pub rate: Option<f64>,
     /// Whether the last correction was still larger than the tolerance of the scene.
     pub is_unconverged: bool,
+    /// Whether a condition was relaxed, since the macro step does not resolve its multiplier.
+    pub is_limited: bool,
     /// Whether columns were asked for in this step.
     pub with_columns: bool,
 }

@@ -60,6 +60,8 @@ pub struct Corrections {
     pub slowest_rate: f64,
     /// Macro steps whose last correction was larger than the tolerance of the scene.
     pub unconverged: u64,
+    /// Macro steps in which a condition was relaxed, since they did not resolve its multiplier.
+    pub limited: u64,
 }
 
 impl Corrections {
@@ -70,6 +72,7 @@ impl Corrections {
         self.most_passes = self.most_passes.max(passes.count);
         self.slowest_rate = self.slowest_rate.max(passes.rate.unwrap_or(0.0));
         self.unconverged += u64::from(passes.is_unconverged);
+        self.limited += u64::from(passes.is_limited);
     }
 }
 

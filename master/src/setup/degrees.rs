@@ -2,6 +2,7 @@
 
 use std::cmp::Reverse;
 
+use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1;
 
 use crate::error::RunError;
@@ -14,12 +15,19 @@ use crate::signal::MAX_DEGREE;
 /// Highest degree of the polynomials by which a turning load is sent to a worker that cannot evaluate it.
 const LOAD_DEGREE: usize = 5;
 
+/// The same for multipliers whose polynomials have a degree above 2: the highest that a signal can have.
+const HIGHEST_LOAD_DEGREE: usize = MAX_NODES - 1;
+
 /// How each subsystem takes loads whose direction turns with the bodies.
 pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<LoadForm>, RunError> {
     let coupling = &scene.coupling;
     // Responses to force and moment turn with the body; those to a multiplier also turn with its partner, so they grow old sooner. What the form
     // of the load adds to the error of S1's methods counts where nothing controls the error.
     let own_curves = coupling.method.parameters().own_curves();
+    let wanted = match own_curves {
+        Some(own) if own.multipliers > 2 => HIGHEST_LOAD_DEGREE,
+        _ => LOAD_DEGREE,
+    };
     let is_controlled = own_curves.is_some() || coupling.step_control.is_some();
     let turns_with_the_body = is_controlled && coupling.jacobian == Jacobian::Reuse;
     let form = |(written, model): (&scene::Subsystem, &v1::Model)| {
@@ -46,7 +54,7 @@ pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Load
                     .max(coupling.exchanged_degree.highest())
                 {
                     0 => 0,
-                    _ => highest(model).map_or(LOAD_DEGREE, |highest| highest.min(LOAD_DEGREE)),
+                    _ => highest(model).map_or(wanted, |highest| highest.min(wanted)),
                 },
             }),
         }

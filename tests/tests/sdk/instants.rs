@@ -134,9 +134,9 @@ fn both_routes_have_equal_bits(serve: Serve) {
 }
 
 fn derivatives_at_instants_are_quotients_of_differences(serve: Serve) {
-    let peer = serve(host());
     for route in ROUTES {
         for solver in ["exact", "radau5", "rk4"] {
+            let peer = serve(host());
             let mut driver = route.drive(&peer, &inside(&oscillator(5, solver)), 0);
             let direction = through(0, &[(0.0, 1.0), (STEP, 2.0)]);
             let mut raised = load(4.0);

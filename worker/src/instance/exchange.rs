@@ -130,7 +130,7 @@ impl Instance {
         self.motion.set_signals(&look.signals)?;
         if let (Horizon::Step(interval), [_, ..]) = (horizon, &look.instants[..]) {
             let step = (interval, &look.instants[..]);
-            let answers = (&mut outputs.values, into.perturbed);
+            let answers = (Some(&mut outputs.values), into.perturbed);
             self.motion
                 .look_ahead_cut(base, step, &look.perturbed, answers)?;
             return self.motion.look_in_directions_cut(

@@ -54,6 +54,8 @@ pub(super) struct Motion {
     derivatives: u64,
     /// States of a look-ahead and its perturbed ones at an instant inside the step.
     under_way: Vec<Snapshot>,
+    /// Outputs that nobody asked for.
+    unread: Vec<f64>,
     /// Derivatives at an instant.
     at_instant: Vec<v1::Outputs>,
 }
@@ -100,6 +102,7 @@ impl Motion {
             integrations: 0,
             derivatives: 0,
             under_way: Vec::new(),
+            unread: Vec::new(),
             at_instant: Vec::new(),
         })
     }

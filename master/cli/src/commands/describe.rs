@@ -113,11 +113,12 @@ fn model_text(model: &Model) -> String {
     let capabilities = model.capabilities.unwrap_or_default();
     text += &format!(
         "  exchange stream {}, perturbed steps repeat the step sequence {}, exportable snapshots {}, \
-         directional derivatives {}\n",
+         directional derivatives {}, outputs inside a step {}\n",
         yes(capabilities.exchange),
         yes(capabilities.repeats_step_sequence),
         yes(capabilities.exportable_snapshot),
-        yes(capabilities.directional_derivatives)
+        yes(capabilities.directional_derivatives),
+        yes(capabilities.interior_outputs)
     );
     text
 }

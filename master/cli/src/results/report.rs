@@ -249,6 +249,13 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
             corrections.unconverged, corrections.slowest_rate, corrections.most_passes
         )?;
     }
+    if corrections.limited > 0 {
+        writeln!(
+            text,
+            "  limited       {:>9}   macro steps do not resolve a multiplier: its top condition was relaxed",
+            corrections.limited
+        )?;
+    }
     Ok(())
 }
 

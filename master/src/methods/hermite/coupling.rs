@@ -17,7 +17,7 @@ use crate::system::{Moments, Outputs, Point, System};
 
 use super::curves::{HermiteCurves, Past};
 use super::moments::Rule;
-use super::reduced::Relaxed;
+use super::reduced::{Relaxed, top_share};
 use super::sample::Sample;
 use super::shapes::Shapes;
 use super::stack::Stack;
@@ -334,8 +334,12 @@ impl Corrected for HermiteCoupling {
         LEAST_DEGREE
     }
 
-    fn may_rise(&self) -> bool {
-        self.relaxed.is_empty()
+    fn top_share(&self) -> f64 {
+        top_share(self.degree, &self.curves)
+    }
+
+    fn is_limited(&self) -> bool {
+        self.family.variant.starts_anew() && !self.relaxed.is_empty()
     }
 
     fn set_degree(&mut self, variables: Range<usize>, degree: usize) {

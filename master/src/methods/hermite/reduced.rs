@@ -148,17 +148,29 @@ fn kept(degree: usize, kind: Kind) -> usize {
     }
 }
 
-/// Whether the coefficients of a multiplier fall towards the top one.
+/// The largest ratio of the top coefficient of a multiplier, of this degree, to those before it; 1 at most.
+pub fn top_share(degree: usize, curves: &HermiteCurves) -> f64 {
+    let multipliers = (0..curves.variables()).filter(|&one| curves.kind(one) == Kind::Multiplier);
+    multipliers.map(|variable| share(degree, curves, variable, None)).fold(0.0, f64::max)
+}
+
+/// Whether the coefficients of a multiplier fall towards the top one, where its unknowns change.
 fn falls(degree: usize, curves: &HermiteCurves, variable: usize, change: &[f64]) -> bool {
-    let unknowns = curves.unknowns_of(variable);
-    let (values, start) = (curves.values(variable), curves.start(variable));
-    let own = &change[unknowns];
+    let own = &change[curves.unknowns_of(variable)];
+    share(degree, curves, variable, Some(own)) <= FALLING
+}
+
+/// The ratio of the top coefficient of a multiplier to those before it; 0 where it is rounding, 1 at most.
+fn share(degree: usize, curves: &HermiteCurves, variable: usize, change: Option<&[f64]>) -> f64 {
+    let (shapes, start) = (curves.shapes(), curves.start(variable));
     let coefficient = |degree: usize| {
-        let shapes = curves.shapes();
-        let changed = shapes.coefficient(degree, 0.0, own);
-        (shapes.coefficient(degree, start, values) + changed).abs()
+        let changed = change.map_or(0.0, |change| shapes.coefficient(degree, 0.0, change));
+        (shapes.coefficient(degree, start, curves.values(variable)) + changed).abs()
     };
     let top = coefficient(degree);
     let largest = (0..degree).map(coefficient).fold(0.0, f64::max);
-    top <= HEARD * largest || top <= FALLING * coefficient(degree - 1).max(coefficient(degree - 2))
+    match top <= HEARD * largest {
+        true => 0.0,
+        false => (top / coefficient(degree - 1).max(coefficient(degree - 2))).min(1.0),
+    }
 }

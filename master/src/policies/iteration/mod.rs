@@ -64,6 +64,8 @@ pub struct Missed {
     pub by_last: f64,
     /// What the first one would have missed if nothing had been foreseen.
     pub by_first: f64,
+    /// What the last one has missed, of the error that is allowed of a step, where it is known.
+    pub of_allowed: Option<f64>,
 }
 
 /// The corrections of a step have not come to an end within their number.

@@ -40,6 +40,7 @@ fn passes_until_refresh(rate: f64) -> Vec<u32> {
         }
         control.accept(step(number));
         control.learn(Missed {
+            of_allowed: None,
             by_last: last * rate,
             by_first: rate,
         });

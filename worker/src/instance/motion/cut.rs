@@ -61,16 +61,26 @@ impl Motion {
     }
 
     /// Coupling outputs at the horizon and interior outputs at `instants`, under the present signals and once more for every perturbed
-    /// signal, in place of the present signal of its input. The committed state stays.
+    /// signal, in place of the present signal of its input. The committed state stays. Without `values` the step under the present
+    /// signals is taken for its internal steps alone, which the others repeat.
     pub(in crate::instance) fn look_ahead_cut(
         &mut self,
         base: Base,
         (interval, instants): (Interval, &[f64]),
         perturbed: &[v1::Signal],
-        (values, outputs): (&mut Vec<f64>, &mut Vec<v1::Outputs>),
+        (values, outputs): (Option<&mut Vec<f64>>, &mut Vec<v1::Outputs>),
     ) -> Result<(), Failure> {
         check_instants(instants, interval.length)?;
         outputs.resize_with(perturbed.len(), v1::Outputs::default);
+        self.integrations += perturbed.len() as u64;
+        let mut unread = std::mem::take(&mut self.unread);
+        let values = match values {
+            Some(values) => {
+                self.integrations += 1;
+                values
+            }
+            None => &mut unread,
+        };
         self.make_room(v1::OutputSet::Coupling, instants, values);
         for outputs in &mut *outputs {
             self.make_room(v1::OutputSet::Coupling, instants, &mut outputs.values);
@@ -79,7 +89,6 @@ impl Motion {
         let mut under_way = std::mem::take(&mut self.under_way);
         under_way.resize_with(perturbed.len() + 1, Snapshot::default);
         self.begin_under_way(&mut under_way);
-        self.integrations += under_way.len() as u64;
         let mut done = Ok(());
         for part in parts(interval.length, instants) {
             done = self.look_over(interval, part, perturbed, &mut under_way, (values, outputs));
@@ -87,7 +96,7 @@ impl Motion {
                 break;
             }
         }
-        self.under_way = under_way;
+        (self.under_way, self.unread) = (under_way, unread);
         self.stands_at = NOWHERE;
         done
     }
