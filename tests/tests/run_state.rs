@@ -97,7 +97,8 @@ const COUPLINGS: [&[&str]; 15] = [
     &[
         "coupling.method=hermite",
         "coupling.degree=automatic",
-        "coupling.tolerance=1e-11",
+        "coupling.tolerance=1e-9",
+        "coupling.greatest_step=8e-3",
     ],
     &[
         "coupling.method=baumgarte",

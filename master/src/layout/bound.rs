@@ -117,6 +117,15 @@ impl Layout {
         self.ranges[subsystem].clone()
     }
 
+    /// For each row whether its condition is a length, and its multiplier a force.
+    pub fn are_lengths(&self) -> impl Iterator<Item = bool> {
+        let rows = self.rows.iter();
+        rows.map(|row| {
+            let joint = &self.joints[row.joint].joint;
+            joint.condition(row.condition).is_length()
+        })
+    }
+
     /// The joint of a row.
     pub fn joint_of(&self, row: usize) -> &BoundJoint {
         &self.joints[self.rows[row].joint]

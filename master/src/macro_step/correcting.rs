@@ -221,7 +221,7 @@ impl Correcting<'_> {
         own.change.copy_from_slice(&own.solution);
         match own.is_first {
             true => own.deferred.complete_first(&mut own.change, own.continues),
-            false if own.is_renewed => own.deferred.renew(),
+            false if own.is_renewed && self.method.tells_error() => own.deferred.renew(),
             false => own.deferred.add_pass(&own.change),
         }
         self.method.correct(&own.change, &own.solution, system);

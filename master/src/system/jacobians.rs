@@ -16,15 +16,26 @@ impl System {
         columns: &[Column],
         point: Point<'_>,
     ) {
+        self.differentiate_inputs(layout, point);
+        self.assemble_responses(layout, outputs, columns, point);
+    }
+
+    /// The same with the derivatives of the inputs as they are.
+    pub(super) fn assemble_responses<'a>(
+        &mut self,
+        layout: &Layout,
+        outputs: impl Fn(usize) -> &'a [f64] + Copy,
+        columns: &[Column],
+        point: Point<'_>,
+    ) {
         for &level in self.level.up_to() {
             self.jacobians[level as usize].fill(0.0);
         }
-        self.differentiate_inputs(layout, point);
         let slot = self.add_joints(layout, outputs, columns);
         self.add_exchanged(layout, outputs, columns, point, slot);
     }
 
-    fn differentiate_inputs(&mut self, layout: &Layout, point: Point<'_>) {
+    pub(super) fn differentiate_inputs(&mut self, layout: &Layout, point: Point<'_>) {
         self.gradients.clear();
         self.gradient_starts.clear();
         for (number, input) in layout.inputs.iter().enumerate() {

@@ -88,6 +88,9 @@ impl Moments {
         if (0..layout.outputs.len()).any(is_silent) {
             return;
         }
+        if columns.is_some() {
+            self.at_instant.differentiate_inputs(layout, point);
+        }
         for (instant, w) in point.inside.iter().enumerate() {
             for (subsystem, outputs) in self.outputs.iter_mut().enumerate() {
                 let told = told.inside(subsystem);
@@ -103,7 +106,7 @@ impl Moments {
             if columns.is_some() {
                 self.at_instant.set_units(&self.units[instant]);
                 self.at_instant
-                    .assemble_jacobians(layout, outputs, &self.columns, point);
+                    .assemble_responses(layout, outputs, &self.columns, point);
             }
             self.add(instant, columns.is_some());
         }

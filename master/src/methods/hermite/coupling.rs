@@ -339,7 +339,7 @@ impl Corrected for HermiteCoupling {
     }
 
     fn is_limited(&self) -> bool {
-        self.family.variant.starts_anew() && !self.relaxed.is_empty()
+        self.relaxed.iter().any(|one| one.is_heard)
     }
 
     fn set_degree(&mut self, variables: Range<usize>, degree: usize) {

@@ -41,6 +41,8 @@ pub struct HermiteCurves {
     rate: Option<f64>,
     history: History,
     rotations: Vec<usize>,
+    /// For each multiplier whether it is a force.
+    are_lengths: Vec<bool>,
     attitudes: Vec<UnitQuaternion<f64>>,
 }
 
@@ -85,6 +87,7 @@ impl HermiteCurves {
             rate: None,
             starts,
             rotations,
+            are_lengths: layout.are_lengths().collect(),
             attitudes: history.attitudes().to_vec(),
             history,
         }
@@ -159,6 +162,14 @@ impl HermiteCurves {
     /// Values of the unknowns of a variable.
     pub fn values(&self, variable: usize) -> &[f64] {
         &self.values[self.unknowns.of(variable)]
+    }
+
+    /// All multipliers that are forces, or all that are moments, as one is.
+    pub fn like(&self, variable: usize) -> impl Iterator<Item = usize> {
+        let are_lengths = self.are_lengths.iter().enumerate();
+        are_lengths
+            .filter(move |(_, is_length)| **is_length == self.are_lengths[variable])
+            .map(|(like, _)| like)
     }
 
     /// Value of a variable at the present macro point.

@@ -8,8 +8,11 @@ use super::variant::{ENDS, LEAST_DEGREE};
 /// The top coefficient of a multiplier has to be smaller than this share of those before it.
 const FALLING: f64 = 0.5;
 
-/// Coefficients below this share of the largest one are rounding.
-const HEARD: f64 = 1e-8;
+/// Coefficients below this share of the largest one of all multipliers of one unit are rounding.
+const ROUNDING: f64 = 1e-8;
+
+/// Coefficients below this share may be the noise of a solver: that they do not fall is no news.
+const HEARD: f64 = 1e-5;
 
 /// By what share of the largest response of the top condition it is relaxed where the top coefficient does not fall.
 const LIMITED: f64 = 0.05;
@@ -24,6 +27,8 @@ const CONTINUOUS: [f64; 3] = [0.04, 0.0068, 0.0022];
 pub struct Relaxed {
     /// The multiplier.
     pub variable: usize,
+    /// Whether its top coefficient stands above what may be noise.
+    pub is_heard: bool,
     /// Its degree p.
     degree: usize,
     /// `kappa 2 (2p - 1)` with its sign, in the units of the stacked row.
@@ -85,11 +90,14 @@ impl Stack {
         for variable in (0..curves.variables()).filter(|&one| curves.kind(one) == Kind::Multiplier) {
             let alpha = match change {
                 None => CONTINUOUS[degree - LEAST_DEGREE - 1],
-                Some(change) if !falls(degree, curves, variable, change) => LIMITED,
+                Some(change) if !falls(degree, curves, variable, (change, ROUNDING)) => LIMITED,
                 Some(_) => continue,
             };
             let kappa = alpha * self.largest_response(degree, curves, variable);
+            let is_heard =
+                |change| !falls(degree, curves, variable, (change, HEARD));
             relaxed.push(Relaxed {
+                is_heard: change.is_some_and(is_heard),
                 variable,
                 degree,
                 factor: self.power(variable) * kappa * 2.0 * (2.0 * degree as f64 - 1.0),
@@ -151,26 +159,46 @@ fn kept(degree: usize, kind: Kind) -> usize {
 /// The largest ratio of the top coefficient of a multiplier, of this degree, to those before it; 1 at most.
 pub fn top_share(degree: usize, curves: &HermiteCurves) -> f64 {
     let multipliers = (0..curves.variables()).filter(|&one| curves.kind(one) == Kind::Multiplier);
-    multipliers.map(|variable| share(degree, curves, variable, None)).fold(0.0, f64::max)
+    multipliers
+        .map(|variable| share(degree, curves, variable, (None, ROUNDING)))
+        .fold(0.0, f64::max)
 }
 
-/// Whether the coefficients of a multiplier fall towards the top one, where its unknowns change.
-fn falls(degree: usize, curves: &HermiteCurves, variable: usize, change: &[f64]) -> bool {
-    let own = &change[curves.unknowns_of(variable)];
-    share(degree, curves, variable, Some(own)) <= FALLING
+/// Whether the coefficients of a multiplier fall towards the top one, where all unknowns change by `change`.
+fn falls(
+    degree: usize,
+    curves: &HermiteCurves,
+    variable: usize,
+    (change, noise): (&[f64], f64),
+) -> bool {
+    share(degree, curves, variable, (Some(change), noise)) <= FALLING
 }
 
-/// The ratio of the top coefficient of a multiplier to those before it; 0 where it is rounding, 1 at most.
-fn share(degree: usize, curves: &HermiteCurves, variable: usize, change: Option<&[f64]>) -> f64 {
-    let (shapes, start) = (curves.shapes(), curves.start(variable));
-    let coefficient = |degree: usize| {
-        let changed = change.map_or(0.0, |change| shapes.coefficient(degree, 0.0, change));
-        (shapes.coefficient(degree, start, curves.values(variable)) + changed).abs()
+/// The ratio of the top coefficient of a multiplier to those before it; 0 where it is noise, 1 at most.
+fn share(
+    degree: usize,
+    curves: &HermiteCurves,
+    variable: usize,
+    (change, noise): (Option<&[f64]>, f64),
+) -> f64 {
+    let shapes = curves.shapes();
+    let coefficient = |variable: usize, degree: usize| {
+        let own = |change: &[f64]| shapes.coefficient(degree, 0.0, &change[curves.unknowns_of(variable)]);
+        let (start, values) = (curves.start(variable), curves.values(variable));
+        (shapes.coefficient(degree, start, values) + change.map_or(0.0, own)).abs()
     };
-    let top = coefficient(degree);
-    let largest = (0..degree).map(coefficient).fold(0.0, f64::max);
-    match top <= HEARD * largest {
+    let top = coefficient(variable, degree);
+    if top <= FALLING * coefficient(variable, degree - 1) && change.is_some() {
+        return 0.0;
+    }
+    let like = curves.like(variable);
+    let all = like.flat_map(|one| (0..degree).map(move |degree| (one, degree)));
+    let largest = all.map(|(one, degree)| coefficient(one, degree)).fold(0.0, f64::max);
+    match top <= noise * largest {
         true => 0.0,
-        false => (top / coefficient(degree - 1).max(coefficient(degree - 2))).min(1.0),
+        false => {
+            let before = coefficient(variable, degree - 1).max(coefficient(variable, degree - 2));
+            (top / before).min(1.0)
+        }
     }
 }
