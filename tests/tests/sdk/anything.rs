@@ -50,7 +50,7 @@ enum Call {
     Step(v1::StepRequest),
     Perturbed(v1::PerturbedStepRequest),
     Evaluate(v1::EvaluateRequest),
-    Exchange(v1::ExchangeRequest),
+    Exchange(Box<v1::ExchangeRequest>),
     Snapshot(v1::SnapshotRequest),
     Restore(v1::RestoreRequest),
 }
@@ -98,7 +98,7 @@ fn call() -> impl Strategy<Value = Call> {
         }),
         (step(), [look(), look()], any::<[bool; 4]>(), samples).prop_map(
             move |(step, [ahead, now], [go_back, advances, predicts, evaluates], samples)| {
-                Call::Exchange(v1::ExchangeRequest {
+                Call::Exchange(Box::new(v1::ExchangeRequest {
                     instance: 5,
                     sequence: step.sequence,
                     advance: advances.then_some(v1::Advance {
@@ -111,7 +111,7 @@ fn call() -> impl Strategy<Value = Call> {
                     predict: optional(predicts, ahead),
                     go_back,
                     evaluate: optional(evaluates, v1::Predict { step: 0.0, ..now }),
-                })
+                }))
             }
         ),
         (40u64..46, proptest::option::of(0u64..4)).prop_map(|(sequence, replaces)| {
