@@ -79,8 +79,13 @@ impl BoundEnd {
 
     /// The motion that the outputs of the subsystem tell.
     pub fn motion(&self, outputs: &[f64]) -> MarkerMotion {
+        self.motion_up_to(Level::Acceleration, outputs)
+    }
+
+    /// The same up to a level; what is above stays 0.
+    pub fn motion_up_to(&self, highest: Level, outputs: &[f64]) -> MarkerMotion {
         let mut motion = MarkerMotion::default();
-        for (level, places) in Level::ALL.iter().zip(&self.levels) {
+        for (level, places) in highest.up_to().iter().zip(&self.levels) {
             let position = vector(&places.position, outputs);
             match level {
                 Level::Position => motion.pose = self.pose(position, places, outputs),
@@ -117,9 +122,9 @@ impl BoundEnd {
     }
 
     /// The change of the motion that goes with a change `column` of the outputs.
-    pub fn change(&self, outputs: &[f64], column: &[f64]) -> MarkerChange {
+    pub fn change(&self, highest: Level, outputs: &[f64], column: &[f64]) -> MarkerChange {
         let mut change = MarkerChange::default();
-        for (level, places) in Level::ALL.iter().zip(&self.levels) {
+        for (level, places) in highest.up_to().iter().zip(&self.levels) {
             let position = vector(&places.position, column);
             match level {
                 Level::Position => {

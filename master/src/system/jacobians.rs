@@ -63,7 +63,7 @@ impl System {
                         if columns[column].derivatives.is_empty() {
                             continue;
                         }
-                        let change = bound.change(own, &columns[column].derivatives);
+                        let change = bound.change(self.level, own, &columns[column].derivatives);
                         let raised = Raised::new(layout, input, raised, column);
                         for condition in joint.joint.conditions() {
                             let motion = &self.motions[number];

@@ -1,7 +1,7 @@
 //! The conditions of the joints and of the exchanged variables.
 
 use super::equations::System;
-use super::motion::motion_of;
+use super::motion::motion_up_to;
 use super::point::Point;
 use crate::joint::Level;
 use crate::layout::Layout;
@@ -17,7 +17,7 @@ impl System {
         self.motions.clear();
         let joints = 0..layout.joints.len();
         self.motions
-            .extend(joints.map(|joint| motion_of(layout, joint, outputs)));
+            .extend(joints.map(|joint| motion_up_to(self.level, layout, joint, outputs)));
         let mut row = 0;
         for (joint, motion) in layout.joints.iter().zip(&self.motions) {
             for condition in joint.joint.conditions() {
