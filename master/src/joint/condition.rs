@@ -12,6 +12,11 @@ pub const ROUNDING: f64 = 1e-11;
 /// positions and velocities are nothing but rounding.
 pub const LEAST_MOTION: f64 = 1e-3;
 
+/// `u . w` and its derivatives up to a level, 0 above it.
+pub fn product(highest: Level, [u, w]: &[Jet; 2]) -> [f64; 3] {
+    highest.each_up_to(|level| u.dot(w, level))
+}
+
 /// One scalar condition `g = u . w` of two vectors that the markers determine, on every level.
 pub trait Condition: Send + Sync {
     /// The law of the load; `None` for the link between scalar markers, whose load is `+lambda` on a, `-lambda` on b.
@@ -39,21 +44,19 @@ pub trait Condition: Send + Sync {
 
     /// `g`, `g'`, `g''` up to `highest`, 0 above it.
     fn values(&self, highest: Level, motion: &Motion) -> [f64; 3] {
-        let [u, w] = self.factors(motion);
-        highest.each_up_to(|level| u.dot(&w, level))
+        product(highest, &self.factors(motion))
     }
 
-    /// Changes of [`Condition::values`] under a small change of the motion at one end.
+    /// Changes of [`Condition::values`] under a small change of the motion at one end; `factors` are those at this motion.
     fn changes(
         &self,
         highest: Level,
-        motion: &Motion,
+        (motion, [u, w]): (&Motion, &[Jet; 2]),
         end: End,
         change: &MarkerChange,
     ) -> [f64; 3] {
-        let [u, w] = self.factors(motion);
         let [du, dw] = self.factor_changes(motion, end, change);
-        highest.each_up_to(|level| du.dot(&w, level) + u.dot(&dw, level))
+        highest.each_up_to(|level| du.dot(w, level) + u.dot(&dw, level))
     }
 
     /// Size of the terms that cancel in [`Condition::value`] while the condition holds, for judging what is rounding:

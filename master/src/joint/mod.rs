@@ -18,11 +18,11 @@ mod rows;
 
 pub use atpoint::AtPoint;
 pub use composite::Kind;
-pub use condition::{Condition, LEAST_MOTION, ROUNDING};
+pub use condition::{Condition, LEAST_MOTION, ROUNDING, product};
 pub use inplane::InPlane;
 pub use level::Level;
 pub use linchpin_proto::joint_load::End;
-pub use motion::{MarkerChange, MarkerMotion, Motion};
+pub use motion::{Jet, MarkerChange, MarkerMotion, Motion};
 pub use perpendicular::Perpendicular;
 pub use rigid_link::RigidLink;
 pub use rows::Joint;

@@ -157,7 +157,9 @@ fn changes_of_the_conditions_are_their_differences() {
                     let [low, high] =
                         [-raise, raise].map(|scale| condition.value(level, &moved(scale)));
                     let difference = (high - low) / (2.0 * raise);
-                    let own = condition.changes(level, &motion, end, &change)[level as usize];
+                    let factors = condition.factors(&motion);
+                    let own =
+                        condition.changes(level, (&motion, &factors), end, &change)[level as usize];
                     assert!(
                         (difference - own).abs() < 1e-7 * (1.0 + own.abs()),
                         "{name}, row {row}, {end:?}, {level:?}: {difference} {own}"
@@ -245,7 +247,8 @@ fn joints_take_as_many_freedoms_as_they_have_rows() {
                 ..MarkerChange::default()
             };
             let condition = joint.condition(row);
-            condition.changes(Level::Position, &motion, End::A, &change)[0]
+            let factors = condition.factors(&motion);
+            condition.changes(Level::Position, (&motion, &factors), End::A, &change)[0]
         };
         let matrix = DMatrix::from_fn(rows, freedoms.len(), entry);
         assert_eq!(matrix.rank(0.05), rows, "{name}: {matrix}");

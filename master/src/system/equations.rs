@@ -7,7 +7,7 @@ use super::entries::visit_entries;
 use super::pattern::Pattern;
 use super::point::Point;
 use super::unknowns::Unknowns;
-use crate::joint::{Level, Motion};
+use crate::joint::{Jet, Level, Motion};
 use crate::layout::Layout;
 
 /// `g` and its derivatives `G` with respect to the unknowns on every level. The rows are the conditions of the joints, then
@@ -28,6 +28,8 @@ pub struct System {
     pub(super) combined_jacobian: Vec<f64>,
     pub(super) rhs: Vec<f64>,
     pub(super) motions: Vec<Motion>,
+    /// Factors of the conditions of the joints.
+    pub(super) factors: Vec<[Jet; 2]>,
     pub(super) gradients: Vec<f64>,
     pub(super) gradient_starts: Vec<usize>,
     pub(super) moments: Option<Box<Moments>>,
@@ -95,6 +97,7 @@ impl System {
             combined_jacobian: vec![0.0; entries],
             rhs: vec![0.0; size],
             motions: Vec::with_capacity(layout.joints.len()),
+            factors: Vec::with_capacity(layout.rows.len()),
             gradients: Vec::new(),
             gradient_starts: Vec::new(),
             pattern,

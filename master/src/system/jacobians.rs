@@ -53,7 +53,7 @@ impl System {
         outputs: impl Fn(usize) -> &'a [f64],
         columns: &[Column],
     ) -> usize {
-        let mut slot = 0;
+        let (mut slot, mut first_row) = (0, 0);
         for (number, joint) in layout.joints.iter().enumerate() {
             for end in End::BOTH {
                 let bound = &joint.ends[end as usize];
@@ -65,14 +65,15 @@ impl System {
                         }
                         let change = bound.change(self.level, own, &columns[column].derivatives);
                         let raised = Raised::new(layout, input, raised, column);
-                        for condition in joint.joint.conditions() {
-                            let motion = &self.motions[number];
-                            let responses = condition.changes(self.level, motion, end, &change);
+                        for (row, condition) in (first_row..).zip(joint.joint.conditions()) {
+                            let at = (&self.motions[number], &self.factors[row]);
+                            let responses = condition.changes(self.level, at, end, &change);
                             slot = self.spread(raised, responses, slot);
                         }
                     }
                 }
             }
+            first_row += joint.joint.len();
         }
         slot
     }

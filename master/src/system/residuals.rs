@@ -3,7 +3,7 @@
 use super::equations::System;
 use super::motion::motion_up_to;
 use super::point::Point;
-use crate::joint::Level;
+use crate::joint::{Level, product};
 use crate::layout::Layout;
 
 impl System {
@@ -18,10 +18,13 @@ impl System {
         let joints = 0..layout.joints.len();
         self.motions
             .extend(joints.map(|joint| motion_up_to(self.level, layout, joint, outputs)));
+        self.factors.clear();
         let mut row = 0;
         for (joint, motion) in layout.joints.iter().zip(&self.motions) {
             for condition in joint.joint.conditions() {
-                let values = condition.values(self.level, motion);
+                let factors = condition.factors(motion);
+                let values = product(self.level, &factors);
+                self.factors.push(factors);
                 for &level in self.level.up_to() {
                     self.residuals[level as usize][row] = values[level as usize];
                 }
