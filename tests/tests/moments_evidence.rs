@@ -78,7 +78,7 @@ fn double_pendulum() {
                 "scene.t_end=1",
                 "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-12, atol = 1e-12 }",
                 "coupling.iterations={ most = 4, tolerance = 1e-12 }",
-                "output.variables=[\"link1.rate\", \"link2.rate\"]",
+                "output.variables=[\"link1.angle\", \"link2.angle\", \"link1.rate\", \"link2.rate\"]",
             ];
             let scene = with_settings(DOUBLE_PENDULUM, &coupling, &others);
             let trajectory = run(&scene, Place::InProcess);
