@@ -46,7 +46,9 @@ fn row(degree: usize, h: f64, errors: &[f64], trajectory: &Trajectory) -> String
 #[test]
 #[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn oscillator() {
-    let mut table = String::from("| degree | H | x | v | lambda | integrations | exchanges |\n|---|---|---|---|---|---|---|\n");
+    let mut table = String::from(
+        "| degree | H | x | v | lambda | integrations | exchanges |\n|---|---|---|---|---|---|---|\n",
+    );
     for degree in DEGREES {
         for h in STEPS {
             let coupling = format!("method=hermite degree={degree} macro_step={h:e}");
@@ -70,7 +72,9 @@ const DOUBLE_PENDULUM: &str = include_str!("../../scenes/double-pendulum.toml");
 #[test]
 #[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn double_pendulum() {
-    let mut table = String::from("| degree | H | angles | rates | lambda | integrations | exchanges |\n|---|---|---|---|---|---|---|\n");
+    let mut table = String::from(
+        "| degree | H | angles | rates | lambda | integrations | exchanges |\n|---|---|---|---|---|---|---|\n",
+    );
     for degree in DEGREES {
         for h in STEPS {
             let coupling = format!("method=hermite degree={degree} macro_step={h:e}");
@@ -87,13 +91,23 @@ fn double_pendulum() {
             let of_links = |what: &str, exact: &dyn Fn(usize, usize) -> f64| {
                 let columns = [0, 1].map(|link| {
                     let values = (0..times.len()).map(|point| exact(point, link));
-                    (format!("link{}.{what}", link + 1), values.collect::<Vec<_>>())
+                    (
+                        format!("link{}.{what}", link + 1),
+                        values.collect::<Vec<_>>(),
+                    )
                 });
-                let columns = columns.each_ref().map(|(name, exact)| (&name[..], exact.clone()));
+                let columns = columns
+                    .each_ref()
+                    .map(|(name, exact)| (&name[..], exact.clone()));
                 error(&trajectory, &columns)
             };
             let forces = ["hinge.lambda.x", "hinge.lambda.y"];
-            let force = |axis: usize| motions.iter().map(|one| one.hinge_forces[0][axis]).collect();
+            let force = |axis: usize| {
+                motions
+                    .iter()
+                    .map(|one| one.hinge_forces[0][axis])
+                    .collect()
+            };
             let errors = [
                 of_links("angle", &|point, link| motions[point].angles[link]),
                 of_links("rate", &|point, link| motions[point].rates[link]),
@@ -108,7 +122,8 @@ fn double_pendulum() {
 #[test]
 #[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn connected_positions() {
-    let mut table = String::from("| degree | H | x | integrations | exchanges |\n|---|---|---|---|---|\n");
+    let mut table =
+        String::from("| degree | H | x | integrations | exchanges |\n|---|---|---|---|---|\n");
     for degree in DEGREES {
         for h in [2e-2, 1e-2] {
             let (error, trajectory) = position_pair(&format!("degree={degree} macro_step={h:e}"));
@@ -122,7 +137,9 @@ fn connected_positions() {
 #[test]
 #[ignore = "prints a table of docs/evidence/methods.md, and writes it with LINCHPIN_WRITE=1"]
 fn random_pairs() {
-    let mut table = String::from("| degree | instants | unstable | largest radius | of these with H resolving both masses | out of reach |\n|---|---|---|---|---|---|\n");
+    let mut table = String::from(
+        "| degree | instants | unstable | largest radius | of these with H resolving both masses | out of reach |\n|---|---|---|---|---|---|\n",
+    );
     let tally = |degree: usize, instants: usize| {
         let coupling = match degree {
             2 => "method=hermite degree=2".to_owned(),
@@ -130,9 +147,21 @@ fn random_pairs() {
         };
         let tally = Tally::of(&coupling, 7, 2000);
         let resolved = tally.unstable.iter().filter(|(pair, _)| pair.is_resolved());
-        let radius = tally.unstable.iter().map(|(_, radius)| *radius).fold(0.0, f64::max);
-        let radius = if radius > 0.0 { format!("{radius:.3}") } else { String::new() };
-        let instants = if degree == 2 { "none".to_owned() } else { instants.to_string() };
+        let radius = tally
+            .unstable
+            .iter()
+            .map(|(_, radius)| *radius)
+            .fold(0.0, f64::max);
+        let radius = if radius > 0.0 {
+            format!("{radius:.3}")
+        } else {
+            String::new()
+        };
+        let instants = if degree == 2 {
+            "none".to_owned()
+        } else {
+            instants.to_string()
+        };
         for (pair, why) in &tally.out_of_reach {
             println!("{coupling}: {why}\n    {pair:?}");
         }
