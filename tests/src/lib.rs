@@ -12,6 +12,7 @@ pub mod golden;
 pub mod hinges;
 pub mod in_space;
 pub mod masses;
+pub mod position_pair;
 pub mod process;
 pub mod random_pairs;
 pub mod reference;

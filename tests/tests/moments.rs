@@ -11,6 +11,7 @@ use linchpin_models::oscillator::OscillatorParameters;
 use linchpin_tests::convergence::{assert_all_orders, assert_least_orders};
 use linchpin_tests::errors::Errors;
 use linchpin_tests::masses::scene_text;
+use linchpin_tests::position_pair::position_pair;
 use linchpin_tests::random_pairs::{Pair, Tally, Verdict};
 use linchpin_tests::runs::{run, try_run};
 use linchpin_tests::scenes::{oscillator_with, with_settings};
@@ -237,49 +238,11 @@ proptest! {
     }
 }
 
-const PAIR: &str = r#"
-[scene]
-name = "pair"
-t_end = 1.0
-[coupling]
-method = "hermite"
-macro_step = 1e-2
-[[subsystem]]
-name = "mass1"
-model = "oscillator"
-parameters = { m = 1.0, c = 39.47841760435743, x0 = 1.0, partner_stiffness = 157.91367041742973 }
-[[subsystem]]
-name = "mass2"
-model = "oscillator"
-parameters = { m = 1.0, c = 39.47841760435743, x0 = 0.0, partner_stiffness = 157.91367041742973 }
-[[connection]]
-name = "there"
-from = "mass1.x"
-to = "mass2.partner_x"
-[[connection]]
-name = "back"
-from = "mass2.x"
-to = "mass1.partner_x"
-"#;
-
 /// Largest error of the position of the first mass, macro steps and exchanges of both.
 fn pair(coupling: &str) -> (f64, u64, u64) {
-    let trajectory = run(&with_settings(PAIR, coupling, &[]), Place::InProcess);
-    let turn = std::f64::consts::TAU;
-    // Both masses swing with 2 pi rad/s, against each other with 6 pi.
-    let position = |t: f64| 0.5 * (turn * t).cos() + 0.5 * (3.0 * turn * t).cos();
-    let points = trajectory
-        .column("t")
-        .into_iter()
-        .zip(trajectory.column("mass1.x"));
-    let error = points
-        .map(|(t, x)| (x - position(t)).abs())
-        .fold(0.0, f64::max);
-    (
-        error,
-        trajectory.statistics.macro_steps,
-        trajectory.statistics.exchanges,
-    )
+    let (error, trajectory) = position_pair(coupling);
+    let statistics = &trajectory.statistics;
+    (error, statistics.macro_steps, statistics.exchanges)
 }
 
 /// Two masses that know each other's position only.
