@@ -66,7 +66,8 @@ impl PositionErrors {
     }
 
     /// The largest difference over what is allowed: of positions at the joints, of velocities there times the length of the step, and of
-    /// connected signals, at the end of the step. What closes a joint again that earlier steps have left open is no difference of this one.
+    /// connected signals, at the end of the step. What closes a joint again that earlier steps have left open by more than is allowed is no
+    /// difference of this one.
     pub fn largest(&mut self, difference: Difference<'_>, tolerance: &Tolerance) -> Estimate {
         let Difference {
             layout,
@@ -83,8 +84,7 @@ impl PositionErrors {
             let inherited = difference
                 .outputs
                 .map_or([[0.0; 2]; 2], |outputs| openings(layout, outputs, number));
-            let inherited =
-                inherited.map(|[opening, rate]| CLOSING * (opening + difference.step * rate));
+            let inherited = inherited.map(|[opening, rate]| opening + difference.step * rate);
             let subsystem = end.subsystem;
             let columns = system.columns_of(layout, subsystem);
             let change = |output: usize| {
@@ -101,7 +101,7 @@ impl PositionErrors {
                 if is_angle {
                     allowed_angle = allowed_angle.min(allowed);
                 }
-                let change = (change(output) - inherited[usize::from(is_angle)]).max(0.0);
+                let change = beyond(change(output), inherited[usize::from(is_angle)], allowed);
                 let suspect = Suspect::Output { subsystem, output };
                 estimate.add(change / allowed, 1, suspect);
             }
@@ -110,7 +110,7 @@ impl PositionErrors {
                 coordinates.map(|&place| (tolerance.allowed_of_output(subsystem, place), 0));
             let allowed = allowed.chain(std::iter::repeat((allowed_angle, 1)));
             for (output, (allowed, kind)) in end.places(Level::Velocity).zip(allowed) {
-                let change = (difference.step * change(output) - inherited[kind]).max(0.0);
+                let change = beyond(difference.step * change(output), inherited[kind], allowed);
                 let suspect = Suspect::Output { subsystem, output };
                 estimate.add(change / allowed, 1, suspect);
             }
@@ -206,6 +206,11 @@ impl PositionErrors {
             }
         }
     }
+}
+
+/// The part of a change that does not close what is open by more than `allowed`.
+fn beyond(change: f64, open: f64, allowed: f64) -> f64 {
+    (change - CLOSING * (open - allowed).max(0.0)).max(0.0)
 }
 
 /// How far a joint is open at the start of the step, and how fast it opens, in m and in rad.

@@ -104,10 +104,9 @@ impl Correcting<'_> {
     fn nested(&self, before: f64, last: f64, more: i32) -> f64 {
         let of_coefficients = self.method.top_share();
         let falls = (last / before).max(of_coefficients).min(1.0);
-        if falls.is_finite() {
-            last * falls.powf(f64::from(more) + 0.5)
-        } else {
-            last
+        match before.is_finite() {
+            true => last * falls.powf(f64::from(more) + 0.5),
+            false => last,
         }
     }
 

@@ -134,6 +134,8 @@ pub struct OwnCurves {
     pub follow: bool,
     /// Of exchanged motion.
     pub motion: usize,
+    /// Whether connected signals have the degree of multipliers where the workers tell something inside a step.
+    pub signals: bool,
     /// The key that determines them.
     pub key: &'static str,
 }

@@ -114,7 +114,9 @@ fn refuse_degree(
         model.name, scene.subsystems[input.subsystem].name
     );
     let help = match scene.coupling.method.parameters().own_curves() {
-        Some(own) if own.key == key => "choose another variant or method".to_owned(),
+        Some(own) if own.key == key => {
+            "choose a lower degree, another variant or another method".to_owned()
+        }
         _ => format!("choose {key} = {highest}"),
     };
     scene.error(key, message, Some(help)).into()
@@ -172,6 +174,9 @@ fn sent(coupling: &scene::Coupling, layout: &Layout, input: &DrivenInput) -> Vec
         .any(|(variable, _)| layout.is_signal(*variable));
     let [of_multipliers, of_exchanged] = groups;
     vec![match own_curves {
+        Some(own) if is_signal && own.signals && !layout.inside.shares.is_empty() => {
+            of_own(own.multipliers, own.key)
+        }
         Some(_) if is_signal => of_exchanged,
         Some(own) if is_exchanged => of_own(own.motion, own.key),
         Some(own) => of_own(own.multipliers, own.key),

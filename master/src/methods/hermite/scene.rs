@@ -129,6 +129,7 @@ impl Parameters for Hermite {
         Some(OwnCurves {
             multipliers: self.degree,
             follow: self.degree_follows,
+            signals: !self.continues_signals,
             motion: self.family(true).motion_degree(),
             key: "coupling.degree",
         })

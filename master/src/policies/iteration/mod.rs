@@ -206,7 +206,12 @@ impl IterationControl {
             }
             None => {
                 let is_blind = state.is_blind && state.passes.count == 0;
-                is_blind || leaves_too_much && state.passes.count < self.settings.most_passes
+                // Passes with new columns that change more and more do not come to an end.
+                let diverges = state.are_fresh
+                    && state.passes.count > 1
+                    && state.passes.rate.is_some_and(|rate| rate >= 1.0);
+                let may_go_on = state.passes.count < self.settings.most_passes && !diverges;
+                is_blind || leaves_too_much && may_go_on
             }
         };
         let is_too_slow = state.rate.is_some_and(|rate| rate > self.settings.too_slow);
@@ -285,6 +290,9 @@ impl IterationControl {
     /// After the last correction: whether the step is taken as it is, by the rule of the scene.
     pub fn check(&self) -> Result<(), Unconverged> {
         let state = &self.state;
+        if let Some(unsolved) = self.unsolved() {
+            return Err(unsolved);
+        }
         let unconverged = self.iterations.filter(|_| state.passes.is_unconverged);
         let Some(iterations) = unconverged.filter(|own| own.otherwise != Otherwise::Warn) else {
             return Ok(());
@@ -301,6 +309,25 @@ impl IterationControl {
             rate,
             share: (rejects && rate < 1.0).then_some(share),
             rejects,
+        })
+    }
+
+    /// Where the error of a step is known precisely and the scene says nothing of iterations: corrections that have not come to an end, and
+    /// leave more than is allowed.
+    fn unsolved(&self) -> Option<Unconverged> {
+        let state = &self.state;
+        let change = state
+            .last
+            .of_allowed
+            .filter(|_| self.iterations.is_none())?;
+        let rate = state.passes.rate?;
+        (rate.min(1.0) * change > 1.0).then_some(Unconverged {
+            change: state.last,
+            tolerance: state.last.of_size / change,
+            passes: state.passes.count,
+            rate,
+            share: None,
+            rejects: true,
         })
     }
 
