@@ -1,0 +1,151 @@
+//! Andrews' squeezer: seven bodies in three loops, five workers.
+
+use linchpin::connect::Place;
+use linchpin_master::scene::Scene;
+
+
+use linchpin_tests::runs::{Trajectory, run};
+use linchpin_tests::scenes::with_settings;
+
+use super::{at_the_points_of, largest, relative};
+
+const SPLIT: &str = include_str!("../../../scenes/benchmarks/andrews.toml");
+const MONOLITH: &str = include_str!("../../../scenes/monolithic/andrews.toml");
+
+/// The solution at 0.03 s of F. Mazzia, C. Magherini, "Test set for initial value problem solvers", release 2.4, Bari 2008,
+/// problem "Andrews' squeezing mechanism", computed there by PSIDE: beta, Theta, gamma, Phi, delta, Omega, epsilon, their
+/// rates, the rates of these, and the six multipliers.
+const PUBLISHED: [f64; 27] = [
+    0.1581077119629904e2,
+    -0.1575637105984298e2,
+    0.4082224013073101e-1,
+    -0.5347301163226948,
+    0.5244099658805304,
+    0.5347301163226948,
+    0.1048080741042263e1,
+    0.1139920302151208e4,
+    -0.1424379294994111e4,
+    0.1103291221937134e2,
+    0.1929337464421385e2,
+    0.5735699284790808,
+    -0.1929337464421385e2,
+    0.3231791658026955,
+    -0.2463176316945196e5,
+    0.5185037701610329e5,
+    0.3241025686413781e6,
+    0.5667493645176213e6,
+    0.1674362929479361e5,
+    -0.5667493645176222e6,
+    0.9826520791458422e4,
+    0.1991753333731910e3,
+    -0.2975531228015052e2,
+    0.2306654119098399e2,
+    0.3145271365475927e2,
+    0.2264249232082739e2,
+    0.1161740700019673e2,
+];
+
+/// What the seven bodies are called in the monolith, and where they are in the scene.
+const BODIES: [(&str, &str); 7] = [
+    ("k1-f", "k1.f"),
+    ("k2-e", "k2.e"),
+    ("k3", "k3.e"),
+    ("k4", "k45.e"),
+    ("k5", "k45.a"),
+    ("k6", "k67.e"),
+    ("k7", "k67.a"),
+];
+
+/// The hinges between the workers.
+const HINGES: [&str; 4] = ["f", "e3", "e4", "e6"];
+
+fn monolith(others: &[&str]) -> Scene {
+    let of_body = |(name, _): &(&str, &str)| {
+        ["angle", "rate", "alpha"].map(|what| format!("mechanism.{name}_{what}"))
+    };
+    let of_hinge =
+        |name: &&str| ["x", "y"].map(|direction| format!("mechanism.{name}_f{direction}"));
+    let angles = BODIES.iter().flat_map(of_body);
+    let outputs: Vec<String> = angles.chain(HINGES.iter().flat_map(of_hinge)).collect();
+    let outputs = format!("output.variables={outputs:?}");
+    with_settings(MONOLITH, "", &[&[outputs.as_str()], others].concat())
+}
+
+#[test]
+fn one_solver_reaches_the_published_values() {
+    let end = run(&monolith(&[]), Place::InProcess);
+    let value = |name: &str| *end.column(&format!("mechanism.{name}")).last().unwrap();
+    let angles = |what: &str| {
+        let [k1, k2, k3, k4, k5, k6, k7] = BODIES.map(|(name, _)| value(&format!("{name}_{what}")));
+        [k1, k2 - k1, k3, k4 - k5, k5, k6 - k7, k7]
+    };
+    let forces = ["e3", "e4", "e6"]
+        .iter()
+        .flat_map(|name| ["x", "y"].map(|direction| value(&format!("{name}_f{direction}"))));
+    let found = ["angle", "rate", "alpha"].into_iter().flat_map(angles);
+    let found: Vec<f64> = found.chain(forces).collect();
+    for (what, range, most) in [
+        ("angles", 0..7, 1e-9),
+        ("rates", 7..14, 1e-9),
+        ("accelerations", 14..21, 1e-6),
+        ("multipliers", 21..27, 1e-6),
+    ] {
+        let error = relative(&found[range.clone()], &PUBLISHED[range]);
+        println!("{what}: {error:.1e}");
+        assert!(error < most, "{what}: {error:e}");
+    }
+}
+
+/// The largest errors of the angles, of the rates, and of the hinge forces over all macro points, each relative to the
+/// largest value of its kind.
+fn errors(found: &Trajectory) -> [f64; 3] {
+    let exact = at_the_points_of(found, &monolith(&[]));
+    let of = |pairs: Vec<(String, String)>| {
+        let columns = pairs
+            .iter()
+            .map(|(own, other)| (found.column(own), exact.column(other)));
+        let columns: Vec<_> = columns.collect();
+        largest(
+            columns
+                .iter()
+                .map(|(found, exact)| relative(found, exact)),
+        )
+    };
+    let of_bodies = |what: &str| {
+        let pair = |(name, place): &(&str, &str)| {
+            (format!("{place}_{what}"), format!("mechanism.{name}_{what}"))
+        };
+        of(BODIES.iter().map(pair).collect())
+    };
+    let pair = |name: &&str| {
+        ["x", "y"].map(|direction| {
+            (
+                format!("{name}.lambda.{direction}"),
+                format!("mechanism.{name}_f{direction}"),
+            )
+        })
+    };
+    let forces = of(HINGES.iter().flat_map(pair).collect());
+    [of_bodies("angle"), of_bodies("rate"), forces]
+}
+
+fn split(coupling: &str, others: &[&str]) -> Scene {
+    with_settings(SPLIT, coupling, others)
+}
+
+#[test]
+fn orders() {
+    let converged = "iterations={most=20,tolerance=1e-11} jacobian=every-step";
+    for (degree, steps) in [
+        (2, [2e-4, 1.5e-4, 1e-4, 5e-5]),
+        (3, [3e-4, 2e-4, 1.5e-4, 1e-4]),
+        (4, [3e-4, 2e-4, 1.5e-4, 1e-4]),
+    ] {
+        for h in steps {
+        let scene = split(&format!("degree={degree} macro_step={h:e} {converged}"), &[]);
+        let t = std::time::Instant::now();
+        let r=run(&scene, Place::InProcess);
+        println!("{degree} {h:e} {:.2e?} {} {:?} {:.1?}", errors(&r), r.integrations, r.statistics.corrections, t.elapsed());
+        }
+    }
+}
