@@ -2,9 +2,11 @@
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
+use linchpin_master::setup::Options;
 
-
-use linchpin_tests::runs::{Trajectory, run};
+use linchpin_tests::convergence::assert_least_orders;
+use linchpin_tests::evidence;
+use linchpin_tests::runs::{Trajectory, run, try_run};
 use linchpin_tests::scenes::with_settings;
 
 use super::{at_the_points_of, largest, relative};
@@ -105,15 +107,14 @@ fn errors(found: &Trajectory) -> [f64; 3] {
             .iter()
             .map(|(own, other)| (found.column(own), exact.column(other)));
         let columns: Vec<_> = columns.collect();
-        largest(
-            columns
-                .iter()
-                .map(|(found, exact)| relative(found, exact)),
-        )
+        largest(columns.iter().map(|(found, exact)| relative(found, exact)))
     };
     let of_bodies = |what: &str| {
         let pair = |(name, place): &(&str, &str)| {
-            (format!("{place}_{what}"), format!("mechanism.{name}_{what}"))
+            (
+                format!("{place}_{what}"),
+                format!("mechanism.{name}_{what}"),
+            )
         };
         of(BODIES.iter().map(pair).collect())
     };
@@ -133,19 +134,97 @@ fn split(coupling: &str, others: &[&str]) -> Scene {
     with_settings(SPLIT, coupling, others)
 }
 
+/// Every step is corrected until its defect is that of the solvers, with columns of its own.
+const CONVERGED: &str = "iterations={most=6,tolerance=1e-10} jacobian=every-step";
+
+/// Angles, rates and hinge forces have the order 2p + 1.
 #[test]
 fn orders() {
-    let converged = "iterations={most=20,tolerance=1e-11} jacobian=every-step";
     for (degree, steps) in [
-        (2, [2e-4, 1.5e-4, 1e-4, 5e-5]),
-        (3, [3e-4, 2e-4, 1.5e-4, 1e-4]),
-        (4, [3e-4, 2e-4, 1.5e-4, 1e-4]),
+        (2, [2e-4, 1.5e-4, 1e-4]),
+        (3, [3e-4, 2e-4, 1.5e-4]),
+        (4, [3e-4, 2.5e-4, 2e-4]),
     ] {
-        for h in steps {
-        let scene = split(&format!("degree={degree} macro_step={h:e} {converged}"), &[]);
-        let t = std::time::Instant::now();
-        let r=run(&scene, Place::InProcess);
-        println!("{degree} {h:e} {:.2e?} {} {:?} {:.1?}", errors(&r), r.integrations, r.statistics.corrections, t.elapsed());
+        let errors = steps.map(|h| {
+            let coupling = format!("degree={degree} macro_step={h:e} {CONVERGED}");
+            errors(&run(
+                &split(&coupling, &["scene.t_end=0.012"]),
+                Place::InProcess,
+            ))
+        });
+        let order = 2.0 * f64::from(degree) + 1.0;
+        let case = format!("degree {degree}");
+        assert_least_orders(&case, &steps, &errors, [order - 0.3; 3]);
+    }
+}
+
+fn with_tolerance(degree: &str, tolerance: f64) -> Trajectory {
+    let coupling = format!("degree={degree} tolerance={tolerance:e} macro_step=1e-5");
+    run(&split(&coupling, &[]), Place::InProcess)
+}
+
+#[test]
+fn the_second_degree_meets_a_tolerance() {
+    for tolerance in [1e-5, 1e-6] {
+        let [angles, ..] = errors(&with_tolerance("2", tolerance));
+        println!("tolerance {tolerance:e}: {angles:.1e}");
+        assert!(angles < 10.0 * tolerance, "{tolerance:e}: {angles:e}");
+    }
+}
+
+#[test]
+#[ignore = "fails: the estimate by lower degrees is 0 in some of the steps, which then become far too long"]
+fn higher_degrees_meet_a_tolerance() {
+    for (degree, tolerance) in [("3", 1e-6), ("3", 1e-9)] {
+        let [angles, ..] = errors(&with_tolerance(degree, tolerance));
+        println!("degree {degree}, tolerance {tolerance:e}: {angles:.1e}");
+        assert!(
+            angles < 10.0 * tolerance,
+            "{degree} {tolerance:e}: {angles:e}"
+        );
+    }
+}
+
+const COMMAND: &str = "cargo test --release -p linchpin-tests --test benchmarks -- --ignored --nocapture table_of_andrews";
+
+/// The longest fixed macro steps, of those a fifth shorter each, whose angles are as accurate as wanted.
+#[test]
+#[ignore = "prints a table of docs/evidence/benchmarks.md, and writes it with LINCHPIN_WRITE=1"]
+fn table_of_andrews() {
+    let mut table = String::from(
+        "| wanted | degree | H, s | angles | rates | hinge forces | macro steps | integrations | exchanges |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for (wanted, degree, first) in [
+        (1e-6, 2, 2e-4),
+        (1e-6, 3, 4e-4),
+        (1e-6, 4, 6e-4),
+        (1e-9, 2, 4e-5),
+        (1e-9, 3, 1.5e-4),
+        (1e-9, 4, 3e-4),
+    ] {
+        let mut h: f64 = first;
+        loop {
+            let coupling =
+                format!("degree={degree} macro_step={h:e} iterations={{most=3,tolerance=1e-8}}");
+            let found = try_run(
+                &split(&coupling, &[]),
+                Place::InProcess,
+                &Options::default(),
+            );
+            if let Ok(found) = found {
+                let [angles, rates, forces] = errors(&found);
+                if angles <= wanted {
+                    let counts = &found.statistics;
+                    table += &format!(
+                        "| {wanted:.0e} | {degree} | {h:.1e} | {angles:.1e} | {rates:.1e} | {forces:.1e} | {} | {} | {} |\n",
+                        counts.macro_steps, counts.integrations, counts.exchanges,
+                    );
+                    break;
+                }
+            }
+            h *= 0.8;
         }
     }
+    evidence::show("benchmarks.md", "andrews", COMMAND, &table);
 }
