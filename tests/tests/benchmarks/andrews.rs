@@ -99,15 +99,21 @@ fn one_solver_reaches_the_published_values() {
 }
 
 /// The largest errors of the angles, of the rates, and of the hinge forces over all macro points, each relative to the
-/// largest value of its kind.
+/// largest value of the same quantity. The forces without those at the last point: no step begins there, so these are the
+/// ends of the last polynomials, of the order p + 1.
 fn errors(found: &Trajectory) -> [f64; 3] {
     let exact = at_the_points_of(found, &monolith(&[]));
-    let of = |pairs: Vec<(String, String)>| {
+    let before_end = found.rows.len() - 1;
+    let of = |rows: usize, pairs: Vec<(String, String)>| {
         let columns = pairs
             .iter()
             .map(|(own, other)| (found.column(own), exact.column(other)));
         let columns: Vec<_> = columns.collect();
-        largest(columns.iter().map(|(found, exact)| relative(found, exact)))
+        largest(
+            columns
+                .iter()
+                .map(|(found, exact)| relative(&found[..rows], &exact[..rows])),
+        )
     };
     let of_bodies = |what: &str| {
         let pair = |(name, place): &(&str, &str)| {
@@ -116,7 +122,7 @@ fn errors(found: &Trajectory) -> [f64; 3] {
                 format!("mechanism.{name}_{what}"),
             )
         };
-        of(BODIES.iter().map(pair).collect())
+        of(found.rows.len(), BODIES.iter().map(pair).collect())
     };
     let pair = |name: &&str| {
         ["x", "y"].map(|direction| {
@@ -126,7 +132,7 @@ fn errors(found: &Trajectory) -> [f64; 3] {
             )
         })
     };
-    let forces = of(HINGES.iter().flat_map(pair).collect());
+    let forces = of(before_end, HINGES.iter().flat_map(pair).collect());
     [of_bodies("angle"), of_bodies("rate"), forces]
 }
 
@@ -137,13 +143,14 @@ fn split(coupling: &str, others: &[&str]) -> Scene {
 /// Every step is corrected until its defect is that of the solvers, with columns of its own.
 const CONVERGED: &str = "iterations={most=6,tolerance=1e-10} jacobian=every-step";
 
-/// Angles, rates and hinge forces have the order 2p + 1.
+/// Angles, rates and hinge forces have the order 2p + 1. With degree 4 the steps are so long that higher powers of H still
+/// matter, and below 2e-4 s the errors are those of the solvers.
 #[test]
 fn orders() {
-    for (degree, steps) in [
-        (2, [2e-4, 1.5e-4, 1e-4]),
-        (3, [3e-4, 2e-4, 1.5e-4]),
-        (4, [3e-4, 2.5e-4, 2e-4]),
+    for (degree, steps, least) in [
+        (2, [2e-4, 1.5e-4, 1e-4], [4.9, 5.0, 5.0]),
+        (3, [3e-4, 2e-4, 1.5e-4], [6.9, 7.0, 6.8]),
+        (4, [3e-4, 2.5e-4, 2e-4], [8.8, 8.8, 8.4]),
     ] {
         let errors = steps.map(|h| {
             let coupling = format!("degree={degree} macro_step={h:e} {CONVERGED}");
@@ -152,9 +159,7 @@ fn orders() {
                 Place::InProcess,
             ))
         });
-        let order = 2.0 * f64::from(degree) + 1.0;
-        let case = format!("degree {degree}");
-        assert_least_orders(&case, &steps, &errors, [order - 0.3; 3]);
+        assert_least_orders(&format!("degree {degree}"), &steps, &errors, least);
     }
 }
 

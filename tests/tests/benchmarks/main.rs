@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod andrews;
+mod bricard;
+mod double_four_bar;
 
 use linchpin::connect::Place;
 use linchpin_master::scene::Scene;
@@ -13,12 +15,20 @@ use linchpin_tests::runs::{Trajectory, try_run};
 fn at_the_points_of(run: &Trajectory, monolith: &Scene) -> Trajectory {
     let times = run.column("t");
     let lengths = times.windows(2).map(|pair| pair[1] - pair[0]);
+    let mut monolith = monolith.clone();
+    monolith.t_end = times[times.len() - 1];
     let options = Options {
         step_lengths: Some(lengths.collect()),
         ..Options::default()
     };
-    let found = try_run(monolith, Place::InProcess, &options).unwrap();
-    assert_eq!(found.rows.len(), times.len());
+    let found = try_run(&monolith, Place::InProcess, &options).unwrap();
+    let off = found.column("t").into_iter().zip(&times);
+    let off = largest(off.map(|(found, time)| (found - time).abs()));
+    assert!(
+        found.rows.len() == times.len() && off < 1e-12,
+        "{off:e} {times:?} {:?}",
+        found.column("t")
+    );
     found
 }
 
