@@ -201,15 +201,16 @@ fn table_of_andrews() {
          |---|---|---|---|---|---|---|---|---|\n",
     );
     for (wanted, degree, first) in [
-        (1e-6, 2, 2e-4),
-        (1e-6, 3, 4e-4),
-        (1e-6, 4, 6e-4),
-        (1e-9, 2, 4e-5),
-        (1e-9, 3, 1.5e-4),
-        (1e-9, 4, 3e-4),
+        (1e-6, 2, 240),
+        (1e-6, 3, 80),
+        (1e-6, 4, 50),
+        (1e-9, 2, 960),
+        (1e-9, 3, 250),
+        (1e-9, 4, 110),
     ] {
-        let mut h: f64 = first;
+        let mut steps: u32 = first;
         loop {
+            let h = 0.03 / f64::from(steps);
             let coupling =
                 format!("degree={degree} macro_step={h:e} iterations={{most=3,tolerance=1e-8}}");
             let found = try_run(
@@ -228,7 +229,7 @@ fn table_of_andrews() {
                     break;
                 }
             }
-            h *= 0.8;
+            steps += steps / 4;
         }
     }
     evidence::show("benchmarks.md", "andrews", COMMAND, &table);

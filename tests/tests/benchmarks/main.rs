@@ -11,7 +11,7 @@ use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 use linchpin_tests::runs::{Trajectory, try_run};
 
-/// A mechanism in one solver at the macro points of a run.
+/// A mechanism in one solver at the macro points of a run, whose fixed macro step has to divide its time.
 fn at_the_points_of(run: &Trajectory, monolith: &Scene) -> Trajectory {
     let times = run.column("t");
     let lengths = times.windows(2).map(|pair| pair[1] - pair[0]);
