@@ -14,9 +14,9 @@ use super::{at_the_points_of, largest, relative};
 const SPLIT: &str = include_str!("../../../scenes/benchmarks/andrews.toml");
 const MONOLITH: &str = include_str!("../../../scenes/monolithic/andrews.toml");
 
-/// The solution at 0.03 s of F. Mazzia, C. Magherini, "Test set for initial value problem solvers", release 2.4, Bari 2008,
-/// problem "Andrews' squeezing mechanism", computed there by PSIDE: beta, Theta, gamma, Phi, delta, Omega, epsilon, their
-/// rates, the rates of these, and the six multipliers.
+/// The solution at 0.03 s of F. Mazzia, C. Magherini, "Test set for initial value problem solvers", release 2.4, Bari
+/// 2008, problem "Andrews' squeezing mechanism", computed there by PSIDE: beta, Theta, gamma, Phi, delta, Omega,
+/// epsilon, their rates, the rates of these, and the six multipliers.
 const PUBLISHED: [f64; 27] = [
     0.1581077119629904e2,
     -0.1575637105984298e2,
@@ -99,8 +99,8 @@ fn one_solver_reaches_the_published_values() {
 }
 
 /// The largest errors of the angles, of the rates, and of the hinge forces over all macro points, each relative to the
-/// largest value of the same quantity. The forces without those at the last point: no step begins there, so these are the
-/// ends of the last polynomials, of the order p + 1.
+/// largest value of the same quantity. The forces without those at the last point: no step begins there, so these are
+/// the ends of the last polynomials, of the order p + 1.
 fn errors(found: &Trajectory) -> [f64; 3] {
     let exact = at_the_points_of(found, &monolith(&[]));
     let before_end = found.rows.len() - 1;
@@ -143,8 +143,8 @@ fn split(coupling: &str, others: &[&str]) -> Scene {
 /// Every step is corrected until its defect is that of the solvers, with columns of its own.
 const CONVERGED: &str = "iterations={most=6,tolerance=1e-10} jacobian=every-step";
 
-/// Angles, rates and hinge forces have the order 2p + 1. With degree 4 the steps are so long that higher powers of H still
-/// matter, and below 2e-4 s the errors are those of the solvers.
+/// Angles, rates and hinge forces have the order 2p + 1. With degree 4 the steps are so long that higher powers of H
+/// still matter, and below 2e-4 s the errors are those of the solvers.
 #[test]
 fn orders() {
     for (degree, steps, least) in [

@@ -76,8 +76,8 @@ fn the_third_degree_is_far_more_accurate() {
     assert!(place < 1e-11 && velocity < 1e-11 && energy < 1e-10);
 }
 
-/// With a hinge in j1 one condition repeats the others, and its multiplier is not determined: nothing refuses it at the start,
-/// it grows, and the solvers give up.
+/// With a hinge in j1 one condition repeats the others, and its multiplier is not determined: nothing refuses it at the
+/// start, it grows, and the solvers give up.
 #[test]
 fn a_repeated_condition_ends_the_run() {
     let hinge = [

@@ -70,8 +70,8 @@ fn orders_before_the_singular_position() {
     }
 }
 
-/// Through the position with all bars in line, at 0.714 s. Near it the multipliers are hardly determined, so the errors are
-/// not those of the method: they do not fall with H, but the mechanism goes on as parallel bars.
+/// Through the position with all bars in line, at 0.714 s. Near it the multipliers are hardly determined, so the errors
+/// are not those of the method: they do not fall with H, but the mechanism goes on as parallel bars.
 #[test]
 fn it_passes_the_singular_position() {
     for degree in [2, 3, 4] {

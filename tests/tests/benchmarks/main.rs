@@ -1,4 +1,5 @@
-//! Benchmark mechanisms, cut at their hinges into workers, against the same mechanisms in one solver and against published values.
+//! Benchmark mechanisms, cut at their hinges into workers, against the same mechanisms in one solver and against
+//! published values.
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
