@@ -208,9 +208,11 @@ impl PositionErrors {
     }
 }
 
-/// The part of a change that does not close what is open by more than `allowed`.
+/// The part of a change that does not close what is open by more than `allowed`. While joints close nothing is known of the error, which is
+/// no reason for longer steps: half of what is allowed remains.
 fn beyond(change: f64, open: f64, allowed: f64) -> f64 {
-    (change - CLOSING * (open - allowed).max(0.0)).max(0.0)
+    let closing = CLOSING * (open - allowed).max(0.0);
+    (change - closing).max(change.min(0.5 * allowed))
 }
 
 /// How far a joint is open at the start of the step, and how fast it opens, in m and in rad.

@@ -109,6 +109,8 @@ pub struct State {
     rate: Option<f64>,
     /// Share that a correction misses even with new columns, since the conditions are not linear.
     fresh_rate: Option<f64>,
+    /// The same per size of the correction, where that is known relative to the error that is allowed: what is missed goes with the square.
+    curvature: Option<f64>,
     /// Share that the first correction of a step has left, which takes into account what it was foreseen to miss.
     left_by_first: Option<f64>,
     /// Whether the columns at hand belong to the look-ahead over the present step.
@@ -241,7 +243,11 @@ impl IterationControl {
             return false;
         }
         let left = match state.passes.count {
-            _ if state.are_fresh => state.fresh_rate,
+            _ if state.are_fresh => match (state.last.of_allowed, state.curvature) {
+                (Some(change), Some(curvature)) => Some((curvature * change).min(1.0)),
+                (Some(_), None) => None,
+                (None, _) => state.fresh_rate,
+            },
             0 => state.left_by_first.or(self.unknown_rate),
             _ => state.rate,
         };
@@ -267,6 +273,7 @@ impl IterationControl {
         }
         if state.are_fresh {
             state.fresh_rate = Some(rate);
+            state.curvature = curvature(rate, state.last);
         }
         state.passes.count += 1;
         tracing::debug!(
@@ -379,6 +386,7 @@ impl IterationControl {
             true => {
                 let of_last = rate(missed.by_last, self.state.last.of_usual);
                 self.state.fresh_rate = Some(of_last);
+                self.state.curvature = curvature(of_last, self.state.last);
                 (self.state.rate, self.state.left_by_first) = (None, None);
             }
             false => self.note_missed(missed, is_noise),
@@ -429,6 +437,12 @@ impl IterationControl {
 
 fn larger((one, other): (f64, f64)) -> f64 {
     one.max(other)
+}
+
+/// The share that a correction has missed per size of it.
+fn curvature(rate: f64, change: Change) -> Option<f64> {
+    let change = change.of_allowed.filter(|change| *change > 0.0)?;
+    Some(rate / change)
 }
 
 fn rate(size: f64, before: f64) -> f64 {
