@@ -191,7 +191,8 @@ impl IterationControl {
         if !continues {
             let off = state.off_by_length.filter(|_| !state.are_fresh);
             state.rate = state.rate.filter(|_| off.is_some());
-            state.left_by_first = state.rate.or(self.unknown_rate).zip(off).map(larger);
+            let trusted = self.unknown_rate.filter(|_| change.of_allowed.is_none());
+            state.left_by_first = state.rate.or(trusted).zip(off).map(larger);
         }
         state.first = change.of_usual;
     }
@@ -248,6 +249,8 @@ impl IterationControl {
                 (Some(_), None) => None,
                 (None, _) => state.fresh_rate,
             },
+            // Where it is known by how much a correction may be off, columns are not trusted before a step has shown them.
+            0 if state.last.of_allowed.is_some() => state.left_by_first,
             0 => state.left_by_first.or(self.unknown_rate),
             _ => state.rate,
         };
