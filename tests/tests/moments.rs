@@ -69,6 +69,22 @@ fn errors_at_a_long_macro_step() {
     }
 }
 
+/// Without accelerations: continuous, and always relaxed. With exact subsystems it is stable, as far as 16 instants tell.
+#[test]
+fn the_continuous_relative() {
+    for (degree, most) in [(3, 1.2e-4), (4, 6e-7)] {
+        let [x, ..] = errors(&format!("variant=c0pv degree={degree}"), 5e-2);
+        assert!(x < most, "degree {degree}: {x:e}");
+        let coupling = format!("method=hermite variant=c0pv degree={degree} instants=16");
+        let tally = Tally::of(&coupling, 7, 300);
+        let resolved = tally
+            .unstable
+            .iter()
+            .filter(|(pair, _)| most_turns(pair) < 48.0);
+        assert_eq!(resolved.count(), 0, "degree {degree}: {:?}", tally.unstable);
+    }
+}
+
 #[test]
 fn no_drift() {
     for degree in [3, 4, 5] {
