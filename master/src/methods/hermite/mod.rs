@@ -1,8 +1,8 @@
 //! Hermite coupling: multipliers that are polynomials of their own on every macro step.
 //!
-//! On the step from `T_N` to `T_{N+1}` a multiplier is a quadratic polynomial in `s = (t - T_N)/H`. Nothing of it comes from
+//! On the step from `T_N` to `T_{N+1}` a multiplier is a polynomial of degree 2 to 5 in `s = (t - T_N)/H`. Nothing of it comes from
 //! steps before but, in the variant that is continuous, its start value. It has as many unknown values at equidistant
-//! nodes as there are conditions ([`Variant`]), for APV
+//! nodes as there are conditions ([`Variant`]), for APV of degree 2
 //!
 //! ```text
 //! lambda(s) = l_0 (1 - s)(1 - 2s) + l_1 4s(1 - s) + l_2 s(2s - 1)
@@ -19,10 +19,16 @@
 //! end values are unknowns, with the conditions that they are what the partner's outputs say (`curves`). All conditions are
 //! linearised about the prediction with columns of the workers for each shape, and solved together (`stack`).
 //!
+//! With every degree more a moment of each condition over the step vanishes, which the workers' outputs at instants inside it tell
+//! (`moments`). Solutions of fewer degrees tell the error, and where the top coefficient of a multiplier does not fall its top condition
+//! is relaxed (`reduced`).
+//!
 //! * `scene`, `variant`: parameters: which conditions;
 //! * `coupling`: the method in a macro step;
-//! * `curves`: the curves of all variables;
-//! * `stack`: the equations of all unknowns.
+//! * `shapes`: what the curves are made of;
+//! * `curves`, `sample`: the curves of all variables, and their values where they are looked at;
+//! * `moments`: how conditions inside the step are read;
+//! * `stack`, `reduced`: the equations of all unknowns, and those of fewer degrees or with relaxed top conditions.
 
 mod curves;
 mod coupling;
