@@ -6,6 +6,7 @@ use linchpin::error_norm::ColumnError;
 use linchpin_master::scene::Scene;
 
 use crate::runs::{Trajectory, run};
+use crate::scenes::hermite_oscillator;
 
 /// Errors of a run, each the root mean square over the macro points divided by that of the exact values (NRMS).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,4 +69,10 @@ fn column_error(
 pub fn closed_form(scene: &Scene) -> impl Fn(&str, f64) -> Option<f64> {
     let closed_form = ClosedForm::of(scene).unwrap();
     move |column, t| closed_form.value(closed_form.quantity(column)?, t)
+}
+
+/// Errors of position, state and multiplier of the scene [`hermite_oscillator`] against its closed form.
+pub fn of_hermite_oscillator(coupling: &str, h: f64) -> [f64; 3] {
+    let Errors { x, state, lambda } = Errors::against_closed_form(&hermite_oscillator(coupling, h));
+    [x, state, lambda]
 }

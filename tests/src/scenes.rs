@@ -14,6 +14,13 @@ pub fn oscillator_with(coupling: &str, others: &[&str]) -> Scene {
     with_settings(OSCILLATOR, coupling, others)
 }
 
+/// [`oscillator`] with Hermite coupling over 1 s, in macro steps of `h` (s), with the velocities among its results.
+pub fn hermite_oscillator(coupling: &str, h: f64) -> Scene {
+    let coupling = format!("method=hermite {coupling} macro_step={h:e}");
+    let velocities = "output.variables=[\"mass1.v\", \"mass2.v\"]";
+    oscillator_with(&coupling, &["scene.t_end=1", velocities])
+}
+
 /// A scene given as text with other `coupling` settings and more overrides.
 pub fn with_settings(text: &str, coupling: &str, others: &[&str]) -> Scene {
     let coupling = coupling

@@ -3,22 +3,10 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin::connect::Place;
-use linchpin_master::scene::Scene;
 use linchpin_tests::convergence::assert_all_orders;
-use linchpin_tests::errors::Errors;
+use linchpin_tests::errors::of_hermite_oscillator as errors;
 use linchpin_tests::runs::run;
 use linchpin_tests::scenes::oscillator_with;
-
-fn scene(coupling: &str, h: f64) -> Scene {
-    let coupling = format!("method=hermite {coupling} macro_step={h:e}");
-    let velocities = "output.variables=[\"mass1.v\", \"mass2.v\"]";
-    oscillator_with(&coupling, &["scene.t_end=1", velocities])
-}
-
-fn errors(coupling: &str, h: f64) -> [f64; 3] {
-    let Errors { x, state, lambda } = Errors::against_closed_form(&scene(coupling, h));
-    [x, state, lambda]
-}
 
 #[test]
 fn orders_of_all_variants() {

@@ -5,29 +5,17 @@
 
 use linchpin::connect::Place;
 use linchpin_master::results::StepDegrees;
-use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 use linchpin_models::oscillator::OscillatorParameters;
 use linchpin_tests::convergence::{assert_all_orders, assert_least_orders};
-use linchpin_tests::errors::Errors;
+use linchpin_tests::errors::of_hermite_oscillator as errors;
 use linchpin_tests::masses::scene_text;
 use linchpin_tests::position_pair::position_pair;
 use linchpin_tests::random_pairs::{Pair, Tally, Verdict};
 use linchpin_tests::runs::{run, try_run};
-use linchpin_tests::scenes::{oscillator_with, with_settings};
+use linchpin_tests::scenes::{hermite_oscillator as scene, oscillator_with, with_settings};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-
-fn scene(coupling: &str, h: f64) -> Scene {
-    let coupling = format!("method=hermite {coupling} macro_step={h:e}");
-    let velocities = "output.variables=[\"mass1.v\", \"mass2.v\"]";
-    oscillator_with(&coupling, &["scene.t_end=1", velocities])
-}
-
-fn errors(coupling: &str, h: f64) -> [f64; 3] {
-    let Errors { x, state, lambda } = Errors::against_closed_form(&scene(coupling, h));
-    [x, state, lambda]
-}
 
 /// Positions, velocities and multipliers have the order 2p + 1, those of the continuous relative 8.
 #[test]

@@ -172,13 +172,6 @@ impl Motion {
         self.can_go_back = true;
     }
 
-    fn wanted(&self, set: v1::OutputSet) -> &[usize] {
-        match set {
-            v1::OutputSet::Coupling => &self.coupling_outputs,
-            v1::OutputSet::All => &self.all_outputs,
-        }
-    }
-
     /// Makes `kept` the committed state.
     pub(super) fn restore(&mut self, kept: &Kept) -> Result<(), Failure> {
         go_back(&mut *self.subsystem, &mut self.stands_at, kept)?;
@@ -221,16 +214,21 @@ impl Motion {
         set: v1::OutputSet,
         values: &mut Vec<f64>,
     ) -> Result<(), Failure> {
-        let wanted = match set {
-            v1::OutputSet::Coupling => &self.coupling_outputs,
-            v1::OutputSet::All => &self.all_outputs,
-        };
+        let wanted = outputs_of(set, [&self.coupling_outputs, &self.all_outputs]);
         values.clear();
         values.resize(wanted.len(), 0.0);
         let inputs = self.signals.values_at(interval.length);
         self.subsystem
             .outputs(interval.end(), inputs, wanted, values)
             .map_err(|failure| tell(failure, interval.start, interval.length))
+    }
+}
+
+/// The outputs of a set, of the coupling outputs and of all.
+fn outputs_of(set: v1::OutputSet, [coupling, all]: [&[usize]; 2]) -> &[usize] {
+    match set {
+        v1::OutputSet::Coupling => coupling,
+        v1::OutputSet::All => all,
     }
 }
 

@@ -7,7 +7,7 @@ use linchpin_proto::exchange::check_instants;
 use linchpin_proto::v1::{self, Failure};
 
 use super::look_ahead::{Horizon, Sequence};
-use super::{Base, Motion, NOWHERE, tell};
+use super::{Base, Motion, NOWHERE, outputs_of, tell};
 use crate::{Interval, Snapshot};
 
 /// A part of a step, from one instant to the next.
@@ -57,7 +57,8 @@ impl Motion {
     fn make_room(&self, outputs: v1::OutputSet, instants: &[f64], values: &mut Vec<f64>) {
         let interior = instants.len() * self.interior_outputs.len();
         values.clear();
-        values.resize(self.wanted(outputs).len() + interior, 0.0);
+        let at_end = outputs_of(outputs, [&self.coupling_outputs, &self.all_outputs]);
+        values.resize(at_end.len() + interior, 0.0);
     }
 
     /// Coupling outputs at the horizon and interior outputs at `instants`, under the present signals and once more for every perturbed
@@ -174,14 +175,11 @@ impl Motion {
         at_end: v1::OutputSet,
         values: &mut [f64],
     ) -> Result<(), Failure> {
-        let at_end = match at_end {
-            v1::OutputSet::Coupling => &self.coupling_outputs,
-            v1::OutputSet::All => &self.all_outputs,
-        };
+        let at_end = outputs_of(at_end, [&self.coupling_outputs, &self.all_outputs]);
         let interior = &self.interior_outputs;
         let (wanted, first) = match part.instant {
             None => (at_end, 0),
-            Some(instant) => (interior, at_end.len() + instant * interior.len()),
+            Some(instant) => (&interior[..], at_end.len() + instant * interior.len()),
         };
         let inputs = self.signals.values_at(part.to);
         let values = &mut values[first..first + wanted.len()];
