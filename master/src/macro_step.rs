@@ -148,15 +148,19 @@ pub(crate) fn look_ahead(
 fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
     run.iteration = accepted.iteration;
     run.iteration.accept(step);
+    let mut columns = 0.0;
     if let Some((mut own, policies)) = run.correcting() {
         let workers = &mut *own.workers;
         let layout = own.layout;
         own.method
             .lend(&mut |curves, _| workers.request_advance(layout, step, curves));
         own.accept(policies.degrees);
+        columns = own.cost_of_columns();
     }
     match (&mut run.step_size, accepted.estimates) {
-        (Some(step_size), Some([found, next])) => step_size.accept(step, &next, next == found),
+        (Some(step_size), Some([found, next])) => {
+            step_size.accept(step, &next, next == found, columns)
+        }
         _ => step.length,
     }
 }

@@ -5,7 +5,9 @@ use super::jacobian::Jacobian;
 use crate::accuracy::{Correction, Difference, Estimate, Suspect, Tolerance};
 use crate::layout::Layout;
 use crate::methods::LoadErrors;
-use crate::policies::degree::{AutomaticDegrees, Group, Prospect, Prospects, Purpose};
+use crate::policies::degree::{
+    Anew, AutomaticDegrees, Cost, Group, Nested, Outlook, Prospect, Prospects, Purpose,
+};
 use crate::policies::step_size::{Rule, StepSize};
 use crate::system::Outputs;
 use crate::time::MacroStep;
@@ -46,15 +48,9 @@ impl Correcting<'_> {
         tolerance: &Tolerance,
         degree: Option<usize>,
     ) -> Option<Estimate> {
-        let own_degree = self.method.degree();
-        let [of_lower, mut estimate] = self.nested_differences(step, tolerance)?;
-        let degree = degree.unwrap_or(own_degree);
-        estimate.scaled = self.nested(
-            of_lower.scaled,
-            estimate.scaled,
-            degree as i32 - own_degree as i32,
-        );
-        estimate.order = 2 * degree + 1;
+        let (nested, mut estimate) = self.nested(step, tolerance)?;
+        let prospect = nested.prospect(degree.unwrap_or(nested.degree));
+        (estimate.scaled, estimate.order) = (prospect.scaled, prospect.order);
         estimate.is_of_step_alone = true;
         let rows = self.layout.rows.len();
         let unknowns = self.own.end.system.unknowns();
@@ -98,33 +94,62 @@ impl Correcting<'_> {
         Some([differ(lower, lowest), differ(&own.solution, lower)])
     }
 
-    /// The error of a solution, with polynomials of so many degrees `more`, from the differences that the last two degrees make: the last
-    /// one, `d_p`, is the error with one degree less, and every further degree changes it by the same factor. Where the coefficients of a
-    /// multiplier do not fall as fast, which they do with the root of that factor, the step does not resolve it, and they tell the factor.
-    fn nested(&self, before: f64, last: f64, more: i32) -> f64 {
-        let of_coefficients = self.method.top_share();
-        let falls = (last / before).max(of_coefficients).min(1.0);
-        match before.is_finite() {
-            true => last * falls.powf(f64::from(more) + 0.5),
-            false => last,
-        }
+    /// What the solutions with polynomials of fewer degrees tell, and the last of their differences. Every further degree changes it by the
+    /// factor by which the last one has done. Where the coefficients of a multiplier do not fall as fast, which they do with the root of
+    /// that factor, the step does not resolve it, and they tell the factor.
+    fn nested(&mut self, step: MacroStep, tolerance: &Tolerance) -> Option<(Nested, Estimate)> {
+        let [before, last] = self.nested_differences(step, tolerance)?;
+        let fell = match before.scaled.is_finite() {
+            true => (last.scaled / before.scaled).min(1.0),
+            false => 1.0,
+        };
+        let nested = Nested {
+            degree: self.method.degree(),
+            difference: last.scaled,
+            fell,
+            falls: fell.max(self.method.top_share()),
+        };
+        Some((nested, last))
     }
 
-    /// What the degrees around the present one would have made of the step.
-    fn nested_prospects(&mut self, step: MacroStep, tolerance: &Tolerance) -> Option<Prospects> {
-        let [of_lower, present] = self.nested_differences(step, tolerance)?;
-        let degree = self.method.degree();
-        let of = |more: i32| Prospect {
-            scaled: self.nested(of_lower.scaled, present.scaled, more),
-            order: (2 * degree + 1).saturating_add_signed(2 * more as isize),
+    /// What is known of the degrees of the multipliers' polynomials, where they are found anew in every step.
+    fn anew(&mut self, step: MacroStep, step_size: &StepSize, every_step: bool) -> Option<Anew> {
+        let (nested, _) = self.nested(step, step_size.tolerance())?;
+        let highest = match self.method.is_limited() {
+            true => nested.degree,
+            false => usize::MAX,
         };
-        Some(Prospects {
-            are_anew: true,
-            smooth_points: usize::MAX,
-            lower: (degree > self.method.lowest_degree()).then(|| of(-1)),
-            present: Some(of(0)),
-            higher: (!self.method.is_limited()).then(|| of(1)),
+        Some(Anew {
+            nested,
+            degrees: [self.method.lowest_degree(), highest],
+            cost: Cost {
+                of_step: self.integrations_of_step(),
+                of_power: self.integrations_of_power(),
+                every_step,
+                rest: step_size.rest(step),
+                most_growth: step_size.most_growth_alone(),
+            },
         })
+    }
+
+    /// Integrations of all subsystems over a step, without columns and passes.
+    fn integrations_of_step(&self) -> f64 {
+        2.0 * self.layout.outputs.len() as f64
+    }
+
+    /// Integrations for one power of all inputs that are raised.
+    fn integrations_of_power(&self) -> f64 {
+        let raised = self.layout.inputs.iter().filter(|input| input.is_perturbed);
+        raised.count() as f64
+    }
+
+    /// What the columns over another length cost, in steps; nothing where every step has columns of its own.
+    pub fn cost_of_columns(&self) -> f64 {
+        let powers = match self.own.end.columns.stay() {
+            true => self.method.degree() + 1,
+            false => 0,
+        };
+        self.integrations_of_power() * powers as f64 / self.integrations_of_step()
     }
 
     fn add_errors_of_multipliers(
@@ -192,23 +217,32 @@ impl Correcting<'_> {
             Rule::Equal => Purpose::SmallestError,
         };
         let tolerance = step_size.tolerance();
-        let prospects = |group: &Group| self.prospects(step, tolerance, group);
-        let changed = degrees.choose(prospects, step.length, purpose);
+        let every_step = !self.own.end.columns.stay();
+        let outlook = |group: &Group| {
+            let anew = group
+                .are_multipliers()
+                .then(|| self.anew(step, step_size, every_step));
+            match anew.flatten() {
+                Some(anew) => Outlook::Anew(anew),
+                None => Outlook::Past(self.prospects(step, tolerance, group)),
+            }
+        };
+        let growth =
+            |prospect: Prospect| step_size.growth(step.length, prospect.scaled, prospect.order);
+        let changed = degrees.choose(outlook, growth, step.length, purpose);
+        let next = match changed {
+            [None, None] => *found,
+            degrees => self.error(step, tolerance, degrees),
+        };
         if purpose == Purpose::Repetition {
             degrees.repeat();
             self.apply(degrees);
         }
-        match changed {
-            [None, None] => *found,
-            degrees => self.error(step, tolerance, degrees),
-        }
+        next
     }
 
     /// What the polynomials of the degrees around that of a group would have made of the step.
     fn prospects(&mut self, step: MacroStep, tolerance: &Tolerance, group: &Group) -> Prospects {
-        if let Some(prospects) = self.nested_prospects(step, tolerance) {
-            return prospects;
-        }
         let smooth_points = self.method.smooth_points(group.first());
         let known = |degree: usize| degree < smooth_points;
         let mut error = |degree: usize| {
@@ -227,7 +261,6 @@ impl Correcting<'_> {
         let degree = group.degree();
         let mut of = |degree: Option<usize>| degree.filter(|degree| known(*degree)).map(&mut error);
         Prospects {
-            are_anew: false,
             smooth_points,
             lower: of(degree.checked_sub(1)),
             present: of(Some(degree)),

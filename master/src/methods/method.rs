@@ -140,6 +140,11 @@ pub trait Corrected: CouplingMethod {
         0
     }
 
+    /// The degree of the first step, where the degree follows the errors; otherwise the highest.
+    fn first_degree(&self) -> Option<usize> {
+        None
+    }
+
     /// The lowest degree that it may have.
     fn lowest_degree(&self) -> usize {
         0

@@ -133,7 +133,11 @@ fn assemble(
         established: options.established.as_deref(),
     };
     let built = coupling.method.parameters().build(given);
-    let Built { method, end, point } = built
+    let Built {
+        mut method,
+        end,
+        point,
+    } = built
         .map_err(|Lacking { message, help }| scene.error("coupling.method", message, Some(help)))?;
     let subsystems = workers.subsystems.iter();
     let differentiation: Vec<Differentiation> =
@@ -153,8 +157,9 @@ fn assemble(
     let given = options.degrees.clone();
     let of_scene = coupling.method;
     let stable = Box::new(move |length| scene::highest_stable_degree(of_scene, length));
+    let first_degree = method.corrected().and_then(|own| own.first_degree());
     Ok(Run {
-        degrees: AutomaticDegrees::new(stable, &layout, highest, first, given),
+        degrees: AutomaticDegrees::new(stable, &layout, highest, first_degree, first, given),
         corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),
         point: point.map(|point| PointJacobian::new(jacobian(point))),
         iteration: IterationControl::new(

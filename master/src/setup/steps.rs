@@ -44,5 +44,6 @@ pub(super) fn step_size_of(
     let tolerances = [control.tolerance, control.absolute_tolerance];
     let solvers = subsystems.map(|own| own.tolerance.unwrap_or_default());
     let tolerance = Tolerance::new(tolerances, layout, solvers.collect(), &workers.now());
-    Some(StepSize::new(rule, control, coupling.macro_step, tolerance))
+    let span = [coupling.macro_step, scene.t_end];
+    Some(StepSize::new(rule, control, span, tolerance))
 }

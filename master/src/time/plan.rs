@@ -23,6 +23,9 @@ enum Rule {
     Given(Vec<f64>),
 }
 
+/// Most steps before the end that are made equal.
+const MOST_EQUAL: f64 = 20.0;
+
 impl TimePlan {
     /// Steps of one length, see [`MacroGrid`].
     pub fn equidistant(t_start: f64, t_end: f64, macro_step: f64) -> Self {
@@ -31,8 +34,8 @@ impl TimePlan {
         Self::new(Rule::Grid(grid), t_start, t_end, first)
     }
 
-    /// Steps whose lengths are found on the way, the first `macro_step` long. The last point is `t_end` exactly; where the next wish
-    /// would leave a rest, the rest of the time is halved, so that no step is longer than wished for or shorter than half of that.
+    /// Steps whose lengths are found on the way, the first `macro_step` long. The last point is `t_end` exactly; when the end is near the rest
+    /// of the time is divided into equal steps, so that no step is longer than wished for or shorter than half of that.
     pub fn variable(t_start: f64, t_end: f64, macro_step: f64) -> Self {
         let first = free_step(t_start, t_end, macro_step);
         Self::new(Rule::Free, t_start, t_end, first)
@@ -42,7 +45,7 @@ impl TimePlan {
     pub fn given(t_start: f64, t_end: f64, lengths: Vec<f64>) -> Self {
         let first = lengths
             .first()
-            .and_then(|&length| free_step(t_start, t_end, length));
+            .and_then(|&length| given_step(t_start, t_end, length));
         Self::new(Rule::Given(lengths), t_start, t_end, first)
     }
 
@@ -93,8 +96,12 @@ impl TimePlan {
         let start = self.step?.end;
         match &self.rule {
             Rule::Grid(grid) => grid.step(next),
-            Rule::Free => free_step(start, self.t_end, wish),
-            Rule::Given(lengths) => free_step(start, self.t_end, *lengths.get(next)?),
+            Rule::Free => free_step(
+                start,
+                self.t_end,
+                equal_length(self.step?, self.t_end, wish),
+            ),
+            Rule::Given(lengths) => given_step(start, self.t_end, *lengths.get(next)?),
         }
     }
 
@@ -118,11 +125,36 @@ fn free_step(start: f64, t_end: f64, wish: f64) -> Option<MacroStep> {
     (start < t_end).then(|| step_within(start, t_end, wish))
 }
 
+/// A step of this length from `start`, if that is not the end.
+fn given_step(start: f64, t_end: f64, length: f64) -> Option<MacroStep> {
+    let reaches_end = length >= (t_end - start) * (1.0 - ROUNDING);
+    let end = if reaches_end { t_end } else { start + length };
+    let length = length.min(t_end - start);
+    (start < t_end).then_some(MacroStep { start, length, end })
+}
+
+/// The length of the steps after `step` that are no longer than wished for and end together, where few are left: columns and histories of
+/// equal steps are worth more than long ones.
+fn equal_length(step: MacroStep, t_end: f64, wish: f64) -> f64 {
+    let rest = t_end - step.end;
+    let steps = (rest / wish * (1.0 - ROUNDING)).ceil();
+    if !(1.0..=MOST_EQUAL).contains(&steps) {
+        return wish;
+    }
+    let equal = rest / steps;
+    match (equal - step.length).abs() <= ROUNDING * step.length {
+        true => step.length,
+        false => equal,
+    }
+}
+
 /// A step from `start`, shorter than wished for if the end is near.
 fn step_within(start: f64, t_end: f64, wish: f64) -> MacroStep {
     let rest = t_end - start;
     let share = rest / wish;
-    let (length, end) = if share <= 1.0 + ROUNDING {
+    let (length, end) = if (share - 1.0).abs() <= ROUNDING {
+        (wish, t_end)
+    } else if share < 1.0 {
         (rest, t_end)
     } else if share < 2.0 {
         (0.5 * rest, start + 0.5 * rest)
@@ -158,7 +190,13 @@ mod tests {
         assert_eq!(lengths(TimePlan::variable(0.0, 1.0, 0.5), []), [0.5, 0.5]);
         assert_eq!(
             lengths(TimePlan::variable(0.0, 1.0, 0.125), [0.25, 0.5]),
-            [0.125, 0.25, 0.3125, 0.3125]
+            [0.125, 0.21875, 0.328125, 0.328125]
+        );
+        let equal = lengths(TimePlan::variable(0.0, 1.0, 0.1), [0.37, 0.37, 0.37]);
+        assert_eq!(equal.len(), 4);
+        assert!(
+            equal[1..].iter().all(|length| *length == equal[1]),
+            "{equal:?}"
         );
     }
 
@@ -196,7 +234,21 @@ mod tests {
         fn given_lengths_make_the_same_plan(span in 1e-3f64..10.0, shares in proptest::collection::vec(1e-2f64..1.0, 1..40)) {
             let wishes = shares.iter().map(|share| share * span);
             let found = lengths(TimePlan::variable(0.0, span, shares[0] * span), wishes);
-            prop_assert_eq!(&lengths(TimePlan::given(0.0, span, found.clone()), []), &found);
+            let given = lengths(TimePlan::given(0.0, span, found.clone()), []);
+            prop_assert_eq!(given.len(), found.len());
+            for (given, found) in given.iter().zip(&found) {
+                prop_assert!((given - found).abs() <= 1e-9 * found);
+            }
+        }
+
+        #[test]
+        fn given_lengths_are_taken_as_they_are(shares in proptest::collection::vec(1e-2f64..1.0, 1..40)) {
+            let span = shares.iter().sum();
+            let given = lengths(TimePlan::given(0.0, span, shares.clone()), []);
+            prop_assert_eq!(given.len(), shares.len());
+            for (given, share) in given.iter().zip(&shares) {
+                prop_assert!((given - share).abs() < 1e-9);
+            }
         }
     }
 }

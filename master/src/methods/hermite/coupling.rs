@@ -30,6 +30,9 @@ const MOTION_SHARE: f64 = 1.0 / 60.0;
 /// The power of the step with which that difference falls.
 const MOTION_ORDER: usize = 4;
 
+/// The degree of the first step, where the degree follows the errors.
+const FIRST_DEGREE: usize = LEAST_DEGREE + 1;
+
 /// Whose states are written.
 const NAME: &str = "hermite";
 
@@ -244,6 +247,7 @@ impl CouplingMethod for HermiteCoupling {
         self.read_starts();
         self.multipliers = state.multipliers;
         (self.degree, self.last_degree) = (state.degree, state.last_degree);
+        self.curves.set_degree(self.degree);
         Ok(())
     }
 
@@ -330,6 +334,11 @@ impl Corrected for HermiteCoupling {
         self.degree
     }
 
+    /// Of the degrees whose errors moments tell the one with the fewest columns: a first step is short.
+    fn first_degree(&self) -> Option<usize> {
+        self.tells_error().then_some(FIRST_DEGREE.min(self.family.degree))
+    }
+
     fn lowest_degree(&self) -> usize {
         LEAST_DEGREE
     }
@@ -345,6 +354,7 @@ impl Corrected for HermiteCoupling {
     fn set_degree(&mut self, variables: Range<usize>, degree: usize) {
         if variables.start == 0 {
             self.degree = degree.clamp(LEAST_DEGREE, self.family.degree);
+            self.curves.set_degree(self.degree);
         }
     }
 

@@ -26,6 +26,8 @@ type Start = [f64; 3];
 #[derive(Debug, Clone)]
 pub struct HermiteCurves {
     length: f64,
+    /// Degree of the multipliers' polynomials over the present step.
+    degree: usize,
     unknowns: Unknowns,
     kinds: Vec<Kind>,
     shapes: Shapes,
@@ -75,6 +77,7 @@ impl HermiteCurves {
         let constant = |start: &Start| SharePolynomial::of(&start[..1]);
         Self {
             length: 0.0,
+            degree: shapes.family.degree,
             kinds: kinds_of(layout),
             shapes,
             values: vec![0.0; unknowns.len()],
@@ -96,6 +99,7 @@ impl HermiteCurves {
     /// Takes over another state of the same curves, in memory that is already there.
     pub fn copy_from(&mut self, other: &Self) {
         self.length = other.length;
+        self.degree = other.degree;
         self.values.clone_from(&other.values);
         self.curves.clone_from(&other.curves);
         self.starts.clone_from(&other.starts);
@@ -137,6 +141,11 @@ impl HermiteCurves {
         self.history = past.history;
         self.attitudes = past.attitudes;
         self.shape_curves();
+    }
+
+    /// Gives the multipliers' polynomials this degree from the next prediction on.
+    pub fn set_degree(&mut self, degree: usize) {
+        self.degree = degree;
     }
 
     /// What the curves are made of.
@@ -218,7 +227,7 @@ impl HermiteCurves {
     pub fn predict(&mut self, length: f64) {
         self.length = length;
         let past_length = self.past_length;
-        let degree = continued_degree(length / past_length, self.rate);
+        let degree = continued_degree(length / past_length, self.rate).min(self.degree);
         for variable in 0..self.kinds.len() {
             let ahead = |share: f64| 1.0 + share * length / past_length;
             let [p, v, a] = self.starts[variable];
@@ -372,7 +381,7 @@ impl HermiteCurves {
         self.starts.iter().map(|start| start[0])
     }
 
-    fn degree(&self, variable: usize) -> usize {
+    fn degree_of(&self, variable: usize) -> usize {
         let own = self.shapes.degree(self.kinds[variable]);
         own.unwrap_or_else(|| self.history.degree(variable).max(1))
     }
@@ -405,7 +414,7 @@ impl Curves for HermiteCurves {
         signal.values.clear();
         let degree = combination
             .first()
-            .map_or(0, |&(first, _)| self.degree(first));
+            .map_or(0, |&(first, _)| self.degree_of(first));
         for node in 0..=degree {
             let tau = self.length * node as f64 / degree as f64;
             let terms = combination.iter();
@@ -418,7 +427,7 @@ impl Curves for HermiteCurves {
     fn shape(&self, variable: usize, shape: usize) -> SharePolynomial {
         match self.shapes.of(self.kinds[variable]) {
             [] => self.history.end_shape(variable, self.length),
-            own => own[shape],
+            _ => self.shapes.within(self.kinds[variable], shape, self.degree),
         }
     }
 }

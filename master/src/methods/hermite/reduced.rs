@@ -1,7 +1,7 @@
 //! Equations of fewer degrees, or with relaxed top conditions, in place of those of a step.
 
 use super::curves::HermiteCurves;
-use super::shapes::Kind;
+use super::shapes::{Kind, unknowns_within};
 use super::stack::Stack;
 use super::variant::{ENDS, LEAST_DEGREE};
 
@@ -49,7 +49,7 @@ impl Stack {
                 }
                 continue;
             }
-            for unknown in kept(degree, curves.kind(variable))..values.len() {
+            for unknown in unknowns_within(curves.kind(variable), degree)..values.len() {
                 let known = if unknown == 0 { start } else { 0.0 };
                 let parts = (0..values.len()).map(|own| f64::from(u8::from(own == unknown)));
                 let place = self.first_end(variable) + unknown;
@@ -68,7 +68,7 @@ impl Stack {
                 }
                 continue;
             }
-            for unknown in kept(degree, curves.kind(variable))..curves.values(variable).len() {
+            for unknown in unknowns_within(curves.kind(variable), degree)..curves.values(variable).len() {
                 self.meet(self.first_end(variable) + unknown);
             }
         }
@@ -144,15 +144,6 @@ impl Stack {
             2 => first,
             _ => first + ENDS.len() + degree - LEAST_DEGREE - 1,
         }
-    }
-}
-
-/// Number of unknowns of exchanged motion or of a connected signal that belong to multipliers of this degree.
-fn kept(degree: usize, kind: Kind) -> usize {
-    match kind {
-        Kind::Multiplier => degree + 1,
-        Kind::Motion => degree.max(LEAST_DEGREE),
-        Kind::Signal => degree,
     }
 }
 

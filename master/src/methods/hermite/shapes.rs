@@ -1,6 +1,6 @@
 //! The shapes of the curves over a step.
 
-use super::variant::Family;
+use super::variant::{Family, LEAST_DEGREE};
 use crate::layout::Layout;
 use crate::signal::SharePolynomial;
 use crate::system::unknowns::Unknowns;
@@ -96,6 +96,18 @@ impl Shapes {
         }
     }
 
+    /// The shape of one unknown as far as polynomials of multipliers of this `degree` have a part in it: the powers behind that, and the
+    /// moments that belong to higher degrees, cancel in all that has this degree.
+    pub fn within(&self, kind: Kind, unknown: usize, degree: usize) -> SharePolynomial {
+        let shape = self.of(kind)[unknown];
+        match kind {
+            _ if degree >= self.family.degree => shape,
+            Kind::Multiplier => SharePolynomial::of(&shape.coefficients()[..=degree]),
+            Kind::Motion | Kind::Signal if unknown < unknowns_within(kind, degree) => shape,
+            Kind::Motion | Kind::Signal => SharePolynomial::default(),
+        }
+    }
+
     /// For each unknown of a multiplier its part in the coefficient of Legendre's polynomial of this degree.
     pub fn parts_in(&self, degree: usize) -> impl Iterator<Item = f64> {
         self.legendre.iter().map(move |own| own[degree])
@@ -165,6 +177,15 @@ impl Shapes {
         });
         let shapes = kinds.iter().map(of_kind).collect();
         Unknowns::new(layout, shares.clone(), shapes, units.collect())
+    }
+}
+
+/// Number of unknowns of a variable that belong to multipliers of this degree.
+pub fn unknowns_within(kind: Kind, degree: usize) -> usize {
+    match kind {
+        Kind::Multiplier => degree + 1,
+        Kind::Motion => degree.max(LEAST_DEGREE),
+        Kind::Signal => degree,
     }
 }
 

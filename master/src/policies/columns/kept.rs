@@ -20,7 +20,8 @@ use crate::system::Outputs;
 pub struct Kept {
     /// Those that stay, the last used first.
     settled: Vec<Measured>,
-    stay: bool,
+    /// Whether responses stay in use after their macro step.
+    pub stay: bool,
     /// Those of the present macro step, if `is_pending`.
     pending: Measured,
     is_pending: bool,

@@ -199,6 +199,11 @@ impl Columns {
         &self.columns
     }
 
+    /// Whether responses stay in use after their macro step.
+    pub fn stay(&self) -> bool {
+        self.kept.stay
+    }
+
     /// How well the macro steps have resolved the responses.
     pub fn resolution(&self) -> &Resolution {
         &self.resolution

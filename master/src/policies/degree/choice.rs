@@ -9,6 +9,8 @@ use crate::time::MOST_GROWTH;
 pub struct Settings {
     /// A higher degree has to allow steps that are longer by this factor. Nearer to 1 degrees change to and fro, larger ones stay too long.
     pub gain: f64,
+    /// The same for polynomials that are found anew, in integrations until the end of the run.
+    pub gain_anew: f64,
     /// Degree that is left for a lower one only at a jump. Multipliers of constant polynomials are means over the steps; polynomials of higher
     /// degree through them look rough, so that the errors of degree 0 would never let it go.
     pub lowest: usize,
@@ -17,6 +19,7 @@ pub struct Settings {
 /// Those of every run.
 pub(crate) const SETTINGS: Settings = Settings {
     gain: 1.2,
+    gain_anew: 1.25,
     lowest: 1,
 };
 
@@ -43,9 +46,6 @@ pub struct Prospect {
 /// What is known about the degrees that may follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Prospects {
-    /// Whether the polynomials are found anew in every step: their errors do not oscillate with those of earlier ones, and the lowest degree is
-    /// the one that has no lower prospect.
-    pub are_anew: bool,
     /// Number of past points since the variables have jumped, the end of the step not counted.
     pub smooth_points: usize,
     /// With one degree less; absent like the others where the past is too short to tell.
@@ -70,7 +70,7 @@ pub struct DegreeChoice {
 impl Prospect {
     /// Whether this degree allows a step that is longer than with the other one by `gain`. Where both allow more growth than a step
     /// has, and where the step is given, what counts is the error.
-    fn is_better(self, other: Self, gain: f64, purpose: Purpose) -> bool {
+    pub(super) fn is_better(self, other: Self, gain: f64, purpose: Purpose) -> bool {
         let most = match purpose {
             Purpose::SmallestError => 1.0,
             Purpose::LongestStep | Purpose::Repetition => MOST_GROWTH,
@@ -116,6 +116,11 @@ impl DegreeChoice {
         self.degree
     }
 
+    /// Takes this degree.
+    pub fn take(&mut self, degree: usize) {
+        *self = Self::new(degree);
+    }
+
     /// Takes the degree that follows, at most `highest`.
     ///
     /// It changes by one where the other degree has been clearly better over as many steps as the polynomial has nodes: errors that
@@ -140,8 +145,7 @@ impl DegreeChoice {
         let is_better = |other: Option<Prospect>, gain| {
             other.is_some_and(|other| other.is_better(present, gain, purpose))
         };
-        let may_fall = degree > SETTINGS.lowest || prospects.are_anew;
-        let lower = prospects.lower.filter(|_| may_fall);
+        let lower = prospects.lower.filter(|_| degree > SETTINGS.lowest);
         let is_lower_better = is_better(lower, 1.0);
         if purpose == Purpose::Repetition {
             return degree - usize::from(is_lower_better);
@@ -159,8 +163,7 @@ impl DegreeChoice {
         };
         self.lower = count(self.lower, lower);
         self.higher = count(self.higher, higher);
-        let patience = if prospects.are_anew { 0 } else { degree };
-        match (self.lower > patience, self.higher > patience) {
+        match (self.lower > degree, self.higher > degree) {
             (true, true) if self.higher > self.lower => degree + 1,
             (true, _) => degree - 1,
             (false, true) => degree + 1,
@@ -189,7 +192,6 @@ mod tests {
         };
         let [lower, present, higher] = scaled;
         Prospects {
-            are_anew: false,
             smooth_points,
             lower: degree
                 .checked_sub(1)

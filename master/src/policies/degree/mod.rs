@@ -1,5 +1,6 @@
 //! Degrees of the polynomials that follow the estimates: one for all multipliers, one for all exchanged variables.
 
+mod anew;
 mod choice;
 
 use serde::{Deserialize, Serialize};
@@ -9,6 +10,7 @@ use crate::layout::Layout;
 use crate::results::StepDegrees;
 use crate::time::MOST_GROWTH;
 
+pub use anew::{Anew, Cost, Nested, Outlook};
 use choice::DegreeChoice;
 pub(crate) use choice::SETTINGS;
 pub use choice::{Prospect, Prospects, Purpose, Settings};
@@ -84,12 +86,14 @@ impl Group {
 }
 
 impl AutomaticDegrees {
-    /// For the variables of `layout` for which `highest` tells the highest degree that all workers take; `None` if there are none. The
-    /// first step has this length in s; `given` has the degrees of all steps if they are known.
+    /// For the variables of `layout` for which `highest` tells the highest degree that all workers take; `None` if there are none.
+    /// Multipliers begin with the degree `first` if there is one, otherwise with the highest. The first step has this length in s; `given`
+    /// has the degrees of all steps if they are known.
     pub fn new(
         stable: Box<dyn Fn(f64) -> usize + Send>,
         layout: &Layout,
         highest: StepDegrees,
+        first: Option<usize>,
         first_step: f64,
         given: Option<Vec<StepDegrees>>,
     ) -> Option<Self> {
@@ -103,7 +107,9 @@ impl AutomaticDegrees {
                 next: DegreeChoice::new(0),
             };
             let highest = group.highest(&stable, first_step);
-            group.begin(DegreeChoice::new(highest));
+            let first = first.filter(|_| group.are_multipliers());
+            let degree = first.map_or(highest, |first| first.min(highest));
+            group.begin(DegreeChoice::new(degree));
             Some(group)
         };
         let groups: Vec<Group> = [
@@ -125,11 +131,13 @@ impl AutomaticDegrees {
         (!own.state.groups.is_empty()).then_some(own)
     }
 
-    /// Chooses the degrees that follow a step of this length, from what the degrees of a group promise; those of multipliers and of
-    /// exchanged variables, as far as they change and are known to be better.
+    /// Chooses the degrees that follow a step of this length, from the outlook of a group; those of multipliers and of exchanged variables,
+    /// as far as they change and are known to be better. The step-size control would take a step with some error so many times as long
+    /// as `growth` tells.
     pub fn choose(
         &mut self,
-        mut prospects: impl FnMut(&Group) -> Prospects,
+        mut outlook: impl FnMut(&Group) -> Outlook,
+        growth: impl Fn(Prospect) -> f64,
         length: f64,
         purpose: Purpose,
     ) -> [Option<usize>; 2] {
@@ -142,25 +150,25 @@ impl AutomaticDegrees {
             Purpose::Repetition | Purpose::SmallestError => length,
         };
         for group in &mut self.state.groups {
-            let prospects = prospects(group);
+            let outlook = outlook(group);
             let highest = group.highest(&self.stable, longest);
             group.next = group.choice;
-            group.next.follow(&prospects, highest, purpose);
+            let is_known = match outlook {
+                Outlook::Past(prospects) => {
+                    group.next.follow(&prospects, highest, purpose);
+                    group.next.degree() < prospects.smooth_points
+                }
+                Outlook::Anew(anew) => {
+                    group.next.take(anew.choose(highest, purpose, &growth));
+                    true
+                }
+            };
             let next = group.next.degree();
-            if next != group.degree() {
-                let error = |prospect: Option<Prospect>| prospect.map(|prospect| prospect.scaled);
-                tracing::debug!(
-                    of = ?group.kind,
-                    from = group.degree(),
-                    to = next,
-                    highest,
-                    error = error(prospects.present),
-                    error_lower = error(prospects.lower),
-                    error_higher = error(prospects.higher),
-                    "degree changes"
-                );
+            if next == group.degree() {
+                continue;
             }
-            if next != group.degree() && next < prospects.smooth_points {
+            tracing::debug!(of = ?group.kind, from = group.degree(), to = next, highest, ?outlook, "degree changes");
+            if is_known {
                 changed[group.kind as usize] = Some(next);
             }
         }

@@ -6,8 +6,8 @@
 //! H_{N+1} = H_N  s  e_N^(-0.7/p)  e_{N-1}^(0.4/p),   s = 0.9,
 //! ```
 //!
-//! a proportional-integral controller, so that the length does not swing; where the error is known from the step alone and far below
-//! what is allowed, `H_{N+1} = H_N s e_N^(-1/p)`. Both within the limits of [`Settings`].
+//! a proportional-integral controller, so that the length does not swing; where the error is known from the step alone and a longer step
+//! saves more until the end than its columns cost, `H_{N+1} = H_N s e_N^(-1/p)`. Both within the limits of [`Settings`].
 
 mod control;
 mod settings;
@@ -31,6 +31,8 @@ pub struct StepSize {
     tolerance: Tolerance,
     /// Length of the first step in s.
     first: f64,
+    /// End of the run in s.
+    end: f64,
     state: State,
 }
 
@@ -92,13 +94,19 @@ pub struct Repetition {
 }
 
 impl StepSize {
-    /// From a first step of length `first`.
-    pub fn new(rule: Rule, control: StepControl, first: f64, tolerance: Tolerance) -> Self {
+    /// From a first step of length `first` to the `end` of the run.
+    pub fn new(
+        rule: Rule,
+        control: StepControl,
+        [first, end]: [f64; 2],
+        tolerance: Tolerance,
+    ) -> Self {
         Self {
             rule,
             tolerance,
             control,
             first,
+            end,
             state: State {
                 before: 1.0,
                 is_repeated: false,
@@ -137,6 +145,27 @@ impl StepSize {
     /// Whether a step with this error is too long.
     pub fn is_too_long(&self, estimate: &Estimate) -> bool {
         self.varies() && estimate.scaled > 1.0
+    }
+
+    /// The time that is left behind a step, in lengths of it.
+    pub fn rest(&self, step: MacroStep) -> f64 {
+        ((self.end - step.end) / step.length).max(0.0)
+    }
+
+    /// How many times as long as a step of this length, with this error that is known from it alone and falls with this power of it, steps may
+    /// become: 1 where it keeps its length.
+    pub fn growth(&self, length: f64, scaled: f64, order: usize) -> f64 {
+        let most = self.control.greatest_step / length;
+        let possible = (SETTINGS.safety * scaled.powf(-1.0 / order as f64)).min(most);
+        match (SETTINGS.keep_from..=SETTINGS.keep_to).contains(&possible) {
+            true => 1.0,
+            false => possible.max(SETTINGS.most_shrinking),
+        }
+    }
+
+    /// So many times as long the next step may be at most, where the error is known from the step alone.
+    pub fn most_growth_alone(&self) -> f64 {
+        SETTINGS.most_growth_alone
     }
 
     /// Where the lengths come from.
@@ -194,8 +223,15 @@ impl StepSize {
     }
 
     /// Takes the step; the length of the next one in s. The `estimate` is that of the degrees that follow; errors before are compared only
-    /// if the degrees stay.
-    pub fn accept(&mut self, step: MacroStep, estimate: &Estimate, has_equal_degrees: bool) -> f64 {
+    /// if the degrees stay. Where the error is known from the step alone, a longer one has to save more than `columns` steps until the end:
+    /// as much as its columns cost.
+    pub fn accept(
+        &mut self,
+        step: MacroStep,
+        estimate: &Estimate,
+        has_equal_degrees: bool,
+        columns: f64,
+    ) -> f64 {
         let power = |error: f64, exponent: f64| error.powf(exponent / estimate.order as f64);
         let (least_error, most_growth) = match estimate.is_of_step_alone {
             true => (0.0, SETTINGS.most_growth_alone),
@@ -212,10 +248,13 @@ impl StepSize {
             }
             false => possible,
         };
+        let saved = self.rest(step) * (1.0 - 1.0 / possible);
+        let may_grow = estimate.is_of_step_alone && possible > SETTINGS.keep_to;
+        let is_no_gain = may_grow && has_equal_degrees && (saved < columns || smooth < 1.0);
         let state = &mut self.state;
         let most = if state.is_repeated { 1.0 } else { most_growth };
         let keeps = (SETTINGS.keep_from..=SETTINGS.keep_to).contains(&possible);
-        let mut wish = match keeps {
+        let mut wish = match keeps || is_no_gain {
             true => step.length,
             false => step.length * smooth.clamp(SETTINGS.most_shrinking, most),
         };

@@ -50,7 +50,7 @@ pub(crate) const SETTINGS: Settings = Settings {
     proportional: 0.4,
     most_shrinking: 0.1,
     most_growth: MOST_GROWTH,
-    most_growth_alone: 4.0,
+    most_growth_alone: 10.0,
     keep_to: 1.25,
     keep_from: 0.95,
     smooth_order: 0.5,

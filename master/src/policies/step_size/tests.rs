@@ -35,7 +35,7 @@ fn controller() -> StepSize {
         unreachable!("nothing lacks nothing")
     };
     let tolerance = Tolerance::new([1e-6, 1e-9], &layout, Vec::new(), &Nothing);
-    StepSize::new(Rule::Free, control, FIRST, tolerance)
+    StepSize::new(Rule::Free, control, [FIRST, 1e3], tolerance)
 }
 
 fn step(length: f64) -> MacroStep {
@@ -74,7 +74,7 @@ proptest! {
         octaves in -10i32..5,
     ) {
         let length = FIRST * f64::from(octaves).exp2();
-        let next = controller().accept(step(length), &estimate(scaled, order, 0.0), true);
+        let next = controller().accept(step(length), &estimate(scaled, order, 0.0), true, 0.0);
         prop_assert!(next <= 2.0 * length * (1.0 + 1e-12) && next >= 0.09 * length);
         prop_assert!(off_the_grid(next) < 1e-6, "{next}");
     }
@@ -102,9 +102,9 @@ fn a_step_after_a_rejected_one_does_not_grow() {
         .repeat(step(0.1), error(estimate(50.0, 3, 1.0)))
         .unwrap()
         .length;
-    let next = own.accept(step(length), &estimate(1e-9, 3, 0.0), true);
+    let next = own.accept(step(length), &estimate(1e-9, 3, 0.0), true, 0.0);
     assert!(next <= length);
-    assert!(own.accept(step(next), &estimate(1e-9, 3, 0.0), true) > next);
+    assert!(own.accept(step(next), &estimate(1e-9, 3, 0.0), true, 0.0) > next);
 }
 
 #[test]
@@ -132,11 +132,11 @@ fn after_a_failure_steps_stay_below_the_length_that_failed() {
     let mut length = own.repeat(step(failed), Cause::Failed).unwrap().length;
     assert!(length <= SETTINGS.failed * failed);
     for _ in 0..SETTINGS.careful_steps {
-        length = own.accept(step(length), &estimate(1e-9, 3, 0.0), true);
+        length = own.accept(step(length), &estimate(1e-9, 3, 0.0), true, 0.0);
         assert!(length <= failed / SETTINGS.most_growth, "{length}");
     }
     for _ in 0..3 {
-        length = own.accept(step(length), &estimate(1e-9, 3, 0.0), true);
+        length = own.accept(step(length), &estimate(1e-9, 3, 0.0), true, 0.0);
     }
     assert!(length > failed / SETTINGS.most_growth, "{length}");
 }
