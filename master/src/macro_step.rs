@@ -27,7 +27,6 @@ pub(crate) use run::Run;
 use crate::accuracy::Estimate;
 use crate::error::RunError;
 use crate::policies::iteration::IterationControl;
-use crate::policies::step_size::StepSize;
 use crate::results::{Outcome, Passes, Verdict};
 use crate::time::MacroStep;
 use advance::advance;
@@ -56,8 +55,10 @@ pub(crate) fn macro_step(run: &mut Run, first: MacroStep) -> Result<Outcome, Run
 struct Accepted {
     /// How its corrections went.
     iteration: IterationControl,
-    /// Its error, and the one that it would have had with the degrees of the next one.
+    /// Its error, and the one that it would have had with the degrees of the next one, where the length or the degrees follow it.
     estimates: Option<[Estimate; 2]>,
+    /// Its error relative to what is bearable; not known without a corrector.
+    error: Option<Estimate>,
 }
 
 /// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
@@ -67,11 +68,12 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
     let mut iteration = run.iteration;
     let mut estimates = None;
     let refusal = run.refusal.take();
-    let Some((mut own, policies)) = run.correcting() else {
+    let Some((mut own, mut policies)) = run.correcting() else {
         run.method.predict(step.length);
         return Ok(Accepted {
             iteration,
             estimates,
+            error: None,
         });
     };
     if let Some(error) = refusal {
@@ -81,7 +83,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
     let step_size = policies.step_size.as_deref();
     if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
-        let next = own.choose_degrees(policies.degrees, step, step_size, &found);
+        let next = own.choose_degrees(policies.degrees.as_deref_mut(), step, step_size, &found);
         if step_size.is_too_long(&found) {
             return Err(Rejection::by_error(
                 own.layout,
@@ -92,7 +94,9 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
         }
         estimates = Some([found, next]);
     }
-    let tolerance = step_size.map(StepSize::tolerance);
+    own.foresee(policies.errors);
+    let error = own.likely_error(step, policies.errors);
+    let tolerance = policies.tolerance();
     own.begin(&mut iteration, step, tolerance);
     while let Some(with_columns) = iteration.next_pass() {
         own.look_again(step, with_columns)?;
@@ -104,6 +108,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
     Ok(Accepted {
         iteration,
         estimates,
+        error: Some(error),
     })
 }
 
@@ -156,6 +161,9 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
             .lend(&mut |curves, _| workers.request_advance(layout, step, curves));
         own.accept(policies.degrees);
         columns = own.cost_of_columns();
+        if let Some(error) = &accepted.error {
+            policies.errors.accept(layout, step, error);
+        }
     }
     match (&mut run.step_size, accepted.estimates) {
         (Some(step_size), Some([found, next])) => {
@@ -176,14 +184,12 @@ fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), Ru
             if is_limited {
                 outcome.verdict = outcome.verdict.max(Verdict::Fair);
             }
-            if iteration.learns() {
-                let tolerance = policies.step_size.as_deref().map(StepSize::tolerance);
-                let missed = own.learn(step, iteration.has_fresh_columns(), tolerance);
-                if missed.of_allowed.is_some_and(|missed| missed > 1.0) {
-                    outcome.verdict = Verdict::Poor;
-                }
-                iteration.learn(missed);
+            let fresh = iteration.has_fresh_columns();
+            let missed = own.learn(step, fresh, policies.tolerance());
+            if missed.of_allowed.is_some_and(|missed| missed > 1.0) {
+                outcome.verdict = Verdict::Poor;
             }
+            iteration.learn(missed);
             outcome.passes = Passes {
                 is_limited,
                 ..iteration.passes()

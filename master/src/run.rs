@@ -14,7 +14,7 @@ use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 use crate::error::RunError;
 use crate::macro_step::{Run, macro_step};
 use crate::policies::step_size::StepSize;
-use crate::results::{Guard, Mechanism, Row, Statistics, StepDegrees};
+use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees};
 use crate::time::MacroStep;
 use crate::workers::Subsystem;
 
@@ -45,6 +45,7 @@ impl CoSimulation {
         let started = Instant::now();
         let outcome = macro_step(&mut self.run, first)?;
         self.read_row(outcome.step);
+        self.run.errors.observe(&self.run.workers.now());
         if let Some(step_size) = &mut self.run.step_size {
             step_size.tolerance_mut().observe(&self.run.workers.now());
         }
@@ -58,11 +59,19 @@ impl CoSimulation {
 
     /// Reads the row at the end of `step`.
     pub(crate) fn read_row(&mut self, step: MacroStep) {
-        let degrees = self.degrees();
+        let of_step = self.of_step();
         let outputs = |subsystem: usize| &self.run.workers.subsystems[subsystem].outputs[..];
         let multipliers = self.run.method.multipliers();
         self.row
-            .read(step, degrees, &self.run.layout, outputs, multipliers);
+            .read(step, of_step, &self.run.layout, outputs, multipliers);
+    }
+
+    /// What is told of the last macro step.
+    fn of_step(&mut self) -> OfStep {
+        OfStep {
+            degrees: self.degrees(),
+            error: self.run.errors.of_last_step(),
+        }
     }
 
     /// Degrees of the polynomials over the last macro step, as far as they follow the estimates.
@@ -121,14 +130,14 @@ impl CoSimulation {
             length,
             end,
         };
-        let degrees = self.degrees();
+        let of_step = self.of_step();
         let sampled = self.run.workers.sampled(place);
         self.run
             .method
             .multipliers_at(length, &self.run.layout, &sampled, &mut self.multipliers);
         let outputs = |subsystem: usize| self.run.workers.subsystems[subsystem].sample(place);
         let (row, multipliers) = (&mut self.sample_row, &self.multipliers);
-        row.read(sample, degrees, &self.run.layout, outputs, multipliers);
+        row.read(sample, of_step, &self.run.layout, outputs, multipliers);
         Some((number, row))
     }
 
@@ -151,6 +160,7 @@ impl CoSimulation {
     /// Counts, times and residuals so far.
     pub fn statistics(&self) -> Statistics {
         let mut statistics = self.statistics.clone();
+        statistics.estimated_errors = self.run.errors.of_run(&self.run.layout);
         statistics.steps = self.run.step_size.as_ref().and_then(StepSize::statistics);
         for (number, subsystem) in self.run.workers.subsystems.iter().enumerate() {
             let columns = self.run.corrector.as_ref().map(|own| &own.end.columns);

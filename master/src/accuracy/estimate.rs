@@ -1,5 +1,7 @@
 //! How large the error of a macro step is, compared with what is allowed.
 
+use serde::{Deserialize, Serialize};
+
 use crate::layout::Layout;
 
 /// The worst error of a macro step.
@@ -18,9 +20,10 @@ pub struct Estimate {
 }
 
 /// What an error belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Suspect {
     /// Nothing has an error.
+    #[default]
     None,
     /// A coupling output of a subsystem.
     Output {
@@ -45,6 +48,13 @@ impl Estimate {
         change: 0.0,
     };
 
+    /// Takes an error and what is allowed of it; no error is allowed everywhere.
+    pub fn add_error(&mut self, error: f64, allowed: f64, order: usize, suspect: Suspect) {
+        if error != 0.0 {
+            self.add(error / allowed, order, suspect);
+        }
+    }
+
     /// Takes a part of the error; one that is no number counts as infinite.
     pub fn add(&mut self, scaled: f64, order: usize, suspect: Suspect) {
         let scaled = if scaled.is_nan() {
@@ -61,14 +71,21 @@ impl Estimate {
 
     /// Name of what has the error, for messages.
     pub fn suspect_name(&self, layout: &Layout) -> String {
-        match self.suspect {
-            Suspect::None => String::new(),
-            Suspect::Output { subsystem, output } => {
+        self.suspect.name(layout)
+    }
+}
+
+impl Suspect {
+    /// Its name; empty if there is none.
+    pub fn name(self, layout: &Layout) -> String {
+        match self {
+            Self::None => String::new(),
+            Self::Output { subsystem, output } => {
                 let name = &layout.subsystems[subsystem];
                 format!("{name}.{}", layout.outputs[subsystem][output])
             }
-            Suspect::Variable(variable) => layout.variable_name(variable),
-            Suspect::Opening(row) => layout.column_name(row, "residual.position"),
+            Self::Variable(variable) => layout.variable_name(variable),
+            Self::Opening(row) => layout.column_name(row, "residual.position"),
         }
     }
 }

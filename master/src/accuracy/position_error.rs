@@ -103,7 +103,7 @@ impl PositionErrors {
                 }
                 let change = beyond(change(output), inherited[usize::from(is_angle)], allowed);
                 let suspect = Suspect::Output { subsystem, output };
-                estimate.add(change / allowed, 1, suspect);
+                estimate.add_error(change, allowed, 1, suspect);
             }
             let coordinates = end.coordinates().iter();
             let allowed =
@@ -112,17 +112,41 @@ impl PositionErrors {
             for (output, (allowed, kind)) in end.places(Level::Velocity).zip(allowed) {
                 let change = beyond(difference.step * change(output), inherited[kind], allowed);
                 let suspect = Suspect::Output { subsystem, output };
-                estimate.add(change / allowed, 1, suspect);
+                estimate.add_error(change, allowed, 1, suspect);
             }
         }
         for exchanged in layout.exchanged.iter().filter(|one| one.rates.is_none()) {
             let allowed = tolerance.allowed_in_step(exchanged.subsystem, exchanged.what);
             for variable in exchanged.first..exchanged.first + exchanged.size() {
                 let change = unknowns[system.unknowns().of(variable).start].abs();
-                estimate.add(change / allowed, 1, Suspect::Variable(variable));
+                estimate.add_error(change, allowed, 1, Suspect::Variable(variable));
             }
         }
         estimate
+    }
+
+    /// Visits the positions at all joints: subsystem and output, whether it is a length, and by how much multipliers of these values move it over
+    /// the step.
+    pub fn visit_effects(
+        &mut self,
+        layout: &Layout,
+        end: (&System, &[Column]),
+        unknowns: &[f64],
+        visit: &mut dyn FnMut([usize; 2], bool, f64),
+    ) {
+        let (system, all) = end;
+        system.raise(layout, unknowns, &mut self.raised);
+        for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
+            let columns = system.columns_of(layout, end.subsystem);
+            for output in end.positions() {
+                let responses = columns.clone().filter_map(|column| {
+                    let response = all[column].derivatives.get(output)?;
+                    Some(response * self.raised[column])
+                });
+                let is_length = end.coordinates().contains(&output);
+                visit([end.subsystem, output], is_length, responses.sum());
+            }
+        }
     }
 
     /// Adds the errors of the positions at all joints, which are the columns times the errors of the multipliers.
@@ -163,8 +187,8 @@ impl PositionErrors {
                 let before = if condition.is_length() { length } else { angle };
                 let allowed = tolerance.allowed_of_opening(layout, row);
                 let inherited = (before - allowed).max(0.0);
-                let scaled = ((predicted + shift).abs() - inherited) / allowed;
-                estimate.add(scaled, correction.order, Suspect::Opening(row));
+                let opening = (predicted + shift).abs() - inherited;
+                estimate.add_error(opening, allowed, correction.order, Suspect::Opening(row));
             }
         }
     }
@@ -197,12 +221,9 @@ impl PositionErrors {
                 let is_angle = !end.coordinates().contains(&output);
                 let inherited = inherited[usize::from(is_angle)];
                 let error = responses.sum::<f64>().abs() - correction.share.abs() * inherited;
-                let scaled = error / tolerance.allowed_of_output(subsystem, output);
-                estimate.add(
-                    scaled,
-                    correction.order,
-                    Suspect::Output { subsystem, output },
-                );
+                let allowed = tolerance.allowed_of_output(subsystem, output);
+                let suspect = Suspect::Output { subsystem, output };
+                estimate.add_error(error, allowed, correction.order, suspect);
             }
         }
     }

@@ -16,6 +16,10 @@ use crate::system::Outputs;
 pub struct Tolerance {
     relative: f64,
     absolute: f64,
+    /// Whether sizes are displacements from the start, and errors are not shared out along the path.
+    is_of_motion: bool,
+    /// Lengths are at least so long as this radius in m times the angles.
+    lever: f64,
     state: State,
     /// For each subsystem the error that its solver allows itself: less cannot be told.
     solvers: Vec<f64>,
@@ -41,6 +45,7 @@ struct Size {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Watched {
     size: usize,
+    start: f64,
     /// Value at the last macro point.
     last: f64,
 }
@@ -53,6 +58,33 @@ impl Tolerance {
         solvers: Vec<f64>,
         outputs: &dyn Outputs,
     ) -> Self {
+        Self::of([relative, absolute], false, layout, solvers, outputs)
+    }
+
+    /// A share of the motion: of the largest displacement from a start with these `outputs`, one in m and one in rad for all joints.
+    /// It is not less than the tolerances of the `solvers`: motion so small is rest.
+    pub fn of_motion(
+        share: f64,
+        layout: &Layout,
+        solvers: Vec<f64>,
+        outputs: &dyn Outputs,
+    ) -> Self {
+        let mut own = Self::of([share, 0.0], true, layout, solvers, outputs);
+        for subsystem in 0..own.solvers.len() {
+            for output in 0..own.state.watched[subsystem].len() {
+                own.floor(subsystem, output, own.solvers[subsystem] / share);
+            }
+        }
+        own
+    }
+
+    fn of(
+        [relative, absolute]: [f64; 2],
+        is_of_motion: bool,
+        layout: &Layout,
+        solvers: Vec<f64>,
+        outputs: &dyn Outputs,
+    ) -> Self {
         let watched = layout
             .outputs
             .iter()
@@ -60,15 +92,21 @@ impl Tolerance {
         let mut tolerance = Self {
             relative,
             absolute,
+            is_of_motion,
+            lever: 0.0,
             state: State {
                 sizes: Vec::new(),
                 watched: watched.collect(),
             },
             solvers,
         };
+        let mut sizes = None;
         for joint in &layout.joints {
-            let length = tolerance.add_size(f64::INFINITY);
-            let angle = tolerance.add_size(1.0);
+            // Motion is that of the whole scene: a joint may stay where it is.
+            let known = sizes.filter(|_| is_of_motion);
+            let [length, angle] =
+                known.unwrap_or_else(|| [f64::INFINITY, 1.0].map(|most| tolerance.add_size(most)));
+            sizes = Some([length, angle]);
             for end in &joint.ends {
                 for place in end.positions() {
                     let is_length = end.coordinates().contains(&place);
@@ -97,11 +135,24 @@ impl Tolerance {
     }
 
     fn watch(&mut self, subsystem: usize, output: usize, size: usize) {
-        let last = 0.0;
-        self.state.watched[subsystem][output].get_or_insert(Watched { size, last });
+        let new = Watched {
+            size,
+            start: 0.0,
+            last: 0.0,
+        };
+        self.state.watched[subsystem][output].get_or_insert(new);
     }
 
     fn begin(&mut self, outputs: &dyn Outputs) {
+        if self.is_of_motion {
+            for (subsystem, watched) in self.state.watched.iter_mut().enumerate() {
+                for (&value, watched) in outputs.of(subsystem).iter().zip(watched) {
+                    if let Some(watched) = watched {
+                        watched.start = value;
+                    }
+                }
+            }
+        }
         self.observe(outputs);
         for size in &mut self.state.sizes {
             (size.path, size.points) = (0.0, 0.0);
@@ -116,7 +167,10 @@ impl Tolerance {
                     continue;
                 };
                 let size = &mut self.state.sizes[watched.size];
-                size.largest = size.largest.max(value.abs()).min(size.most);
+                size.largest = size
+                    .largest
+                    .max((value - watched.start).abs())
+                    .min(size.most);
                 if size.largest > 0.0 {
                     size.path += (value - watched.last).abs() / size.largest;
                     size.points += 1.0;
@@ -124,6 +178,63 @@ impl Tolerance {
                 watched.last = value;
             }
         }
+    }
+
+    /// Takes values that may be reached: sizes grow with them, paths do not.
+    pub fn foresee(&mut self, outputs: &dyn Outputs) {
+        for (subsystem, watched) in self.state.watched.iter().enumerate() {
+            for (&value, watched) in outputs.of(subsystem).iter().zip(watched) {
+                if let Some(watched) = watched.filter(|_| value.is_finite()) {
+                    let size = &mut self.state.sizes[watched.size];
+                    size.largest = size
+                        .largest
+                        .max((value - watched.start).abs())
+                        .min(size.most);
+                }
+            }
+        }
+    }
+
+    /// Takes a size of one output that its group has at least.
+    pub fn floor(&mut self, subsystem: usize, output: usize, size: f64) {
+        if let Some(group) = self
+            .group_of_output(subsystem, output)
+            .filter(|_| size.is_finite())
+        {
+            let own = &mut self.state.sizes[group];
+            own.largest = own.largest.max(size).min(own.most);
+        }
+    }
+
+    /// Number of groups of quantities that have one size.
+    pub fn sizes(&self) -> usize {
+        self.state.sizes.len()
+    }
+
+    /// Gives the radius in m by which angles are compared with lengths.
+    pub fn set_lever(&mut self, lever: f64) {
+        self.lever = lever;
+    }
+
+    /// Size of a group so far.
+    pub fn size(&self, group: usize) -> f64 {
+        let sizes = &self.state.sizes;
+        let turned = match (self.lever > 0.0, sizes.as_slice()) {
+            (true, [_, angle, ..]) if group == 0 => self.lever * angle.largest,
+            _ => 0.0,
+        };
+        sizes[group].largest.max(turned)
+    }
+
+    /// The group of a coupling output, if it is watched.
+    pub fn group_of_output(&self, subsystem: usize, output: usize) -> Option<usize> {
+        self.state.watched[subsystem][output].map(|watched| watched.size)
+    }
+
+    /// The group of the positions that a joint closes in one row.
+    pub fn group_of_opening(&self, layout: &Layout, row: usize) -> Option<usize> {
+        let [subsystem, output] = output_like(layout, row)?;
+        self.group_of_output(subsystem, output)
     }
 
     /// What is remembered, to be written.
@@ -140,7 +251,9 @@ impl Tolerance {
     pub fn allowed_of_output(&self, subsystem: usize, output: usize) -> f64 {
         let allowed = match self.state.watched[subsystem][output] {
             Some(watched) => {
-                let Size { largest, path, .. } = self.state.sizes[watched.size];
+                let largest = self.size(watched.size);
+                let Size { path, .. } = self.state.sizes[watched.size];
+                let path = if self.is_of_motion { 0.0 } else { path };
                 (self.absolute + self.relative * largest) / (1.0 + path)
             }
             None => self.absolute,
@@ -152,6 +265,7 @@ impl Tolerance {
     /// its size, shared among the steps that it takes on the average.
     pub fn allowed_in_step(&self, subsystem: usize, what: What) -> f64 {
         let share = match what {
+            _ if self.is_of_motion => 1.0,
             What::Output(output) => self.state.watched[subsystem][output].map_or(1.0, |watched| {
                 let Size { path, points, .. } = self.state.sizes[watched.size];
                 if path < points { path / points } else { 1.0 }
@@ -164,14 +278,8 @@ impl Tolerance {
 
     /// How far a joint may be open in one row: as far as its markers may be off.
     pub fn allowed_of_opening(&self, layout: &Layout, row: usize) -> f64 {
-        let joint = layout.joint_of(row);
-        let condition = joint.joint.condition(layout.rows[row].condition);
-        let end = &joint.ends[0];
-        let mut positions = end.positions();
-        let is_length = |place: &usize| end.coordinates().contains(place);
-        let like = positions.find(|place| is_length(place) == condition.is_length());
-        like.map_or(self.absolute, |place| {
-            self.allowed_of_output(end.subsystem, place)
+        output_like(layout, row).map_or(self.absolute, |[subsystem, output]| {
+            self.allowed_of_output(subsystem, output)
         })
     }
 
@@ -182,4 +290,16 @@ impl Tolerance {
             What::Attitude { .. } => self.absolute + self.relative,
         }
     }
+}
+
+/// The first marker's coordinate or angle that a joint closes in one row: its subsystem and output.
+fn output_like(layout: &Layout, row: usize) -> Option<[usize; 2]> {
+    let joint = layout.joint_of(row);
+    let condition = joint.joint.condition(layout.rows[row].condition);
+    let end = &joint.ends[0];
+    let is_length = |place: &usize| end.coordinates().contains(place);
+    let like = end
+        .positions()
+        .find(|place| is_length(place) == condition.is_length());
+    like.map(|output| [end.subsystem, output])
 }

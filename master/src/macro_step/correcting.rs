@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
-use crate::accuracy::{Attempts, Change, Difference, PositionErrors, Tolerance};
+use crate::accuracy::{Attempts, Change, Difference, PositionErrors, StepErrors, Tolerance};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::Corrected;
@@ -36,6 +36,8 @@ pub struct Corrector {
     sizes: Vec<f64>,
     /// Solutions with polynomials of one degree and of two degrees less.
     pub(super) nested: [Vec<f64>; 2],
+    /// Whether those of the last first correction are solved for, and whether there are such.
+    pub(super) has_nested: Option<bool>,
     /// Errors of the unknowns of multipliers as positions feel them.
     pub(super) errors: Vec<f64>,
     pub(super) position_errors: PositionErrors,
@@ -70,6 +72,7 @@ impl Corrector {
             remaining: vec![0.0; unknowns],
             sizes: vec![0.0; size],
             nested: [vec![0.0; unknowns], vec![0.0; unknowns]],
+            has_nested: None,
             errors: vec![0.0; unknowns],
             position_errors: PositionErrors::new(size),
             check: LinearisationCheck::new(size),
@@ -206,6 +209,7 @@ impl Correcting<'_> {
     pub fn correct(&mut self, step: MacroStep) -> Result<Duration, RunError> {
         let started = Instant::now();
         let own = &mut *self.own;
+        own.has_nested = None;
         let ahead = self.workers.looked(Ahead::Step);
         own.end.linearise(self.layout, &ahead, self.method.point());
         if let (Some(point), Some(held)) = (self.point.as_mut(), self.method.held()) {
@@ -239,19 +243,51 @@ impl Correcting<'_> {
         &mut self,
         iteration: &mut IterationControl,
         step: MacroStep,
-        tolerance: Option<&Tolerance>,
+        tolerance: &Tolerance,
     ) {
         self.own.norm.note(&self.own.sizes);
         let change = self.size_of_change(step, tolerance);
         iteration.begin(change, self.own.continues, !self.method.has_past());
     }
 
+    /// Tells how far the motion is foreseen to go, and what the multipliers alone make of it.
+    pub fn foresee(&mut self, errors: &mut StepErrors) {
+        errors.foresee(&self.workers.looked(Ahead::Step));
+        if errors.needs_lever() {
+            let are_lengths: Vec<bool> = self.layout.are_lengths().collect();
+            let mut largest = [0.0_f64; 2];
+            for (is_length, largest) in [true, false].into_iter().zip(&mut largest) {
+                let unit = |row: usize| f64::from(u8::from(are_lengths[row] == is_length));
+                visit_effects(
+                    self.own,
+                    self.layout,
+                    unit,
+                    &mut |_, moves_length, effect| {
+                        if moves_length == is_length {
+                            *largest = largest.max(effect.abs());
+                        }
+                    },
+                );
+            }
+            errors.take_lever(largest);
+        }
+        let ends: &[f64] = self.method.ends();
+        visit_effects(
+            self.own,
+            self.layout,
+            |row| ends[row],
+            &mut |place, _, effect| {
+                errors.take_effect(place, effect);
+            },
+        );
+    }
+
     /// Size of the last correction; what follows from it is compared with the `tolerance` by methods whose error is known so precisely.
-    pub fn size_of_change(&mut self, step: MacroStep, tolerance: Option<&Tolerance>) -> Change {
+    pub fn size_of_change(&mut self, step: MacroStep, tolerance: &Tolerance) -> Change {
         let now = self.workers.now();
         let own = &mut *self.own;
         let change = own.norm.of(&own.sizes, self.method.ends());
-        let tolerance = tolerance.filter(|_| self.method.tells_error());
+        let tolerance = self.method.tells_error().then_some(tolerance);
         let of_allowed = tolerance.map(|tolerance| {
             let difference = Difference {
                 layout: self.layout,
@@ -308,7 +344,7 @@ impl Correcting<'_> {
         &mut self,
         step: MacroStep,
         with_new_columns: bool,
-        tolerance: Option<&Tolerance>,
+        tolerance: &Tolerance,
     ) -> Missed {
         let Corrector {
             end,
@@ -331,7 +367,7 @@ impl Correcting<'_> {
             largest_changes(unknowns, remaining, sizes);
             norm.note_left(sizes);
         }
-        let tolerance = tolerance.filter(|_| self.method.tells_error());
+        let tolerance = self.method.tells_error().then_some(tolerance);
         let of_allowed = tolerance.map(|tolerance| {
             let difference = Difference {
                 layout: self.layout,
@@ -354,6 +390,24 @@ impl Correcting<'_> {
             by_first: deferred.learn(remaining, size),
         }
     }
+}
+
+/// Visits the positions at all joints, subsystem and output, whether they are lengths, and by how much multipliers of these values, constant
+/// over the step, move them.
+fn visit_effects(
+    own: &mut Corrector,
+    layout: &Layout,
+    value: impl Fn(usize) -> f64,
+    visit: &mut dyn FnMut([usize; 2], bool, f64),
+) {
+    let unknowns = own.end.system.unknowns();
+    own.errors.fill(0.0);
+    for row in 0..layout.rows.len() {
+        own.errors[unknowns.of(row)].fill(value(row));
+    }
+    let end = (&own.end.system, own.end.columns.all());
+    own.position_errors
+        .visit_effects(layout, end, &own.errors, visit);
 }
 
 /// Largest absolute change of the unknowns of every variable.

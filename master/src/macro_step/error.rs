@@ -2,7 +2,7 @@
 
 use super::correcting::Correcting;
 use super::jacobian::Jacobian;
-use crate::accuracy::{Correction, Difference, Estimate, Suspect, Tolerance};
+use crate::accuracy::{Correction, Difference, Estimate, StepErrors, Suspect, Tolerance};
 use crate::layout::Layout;
 use crate::methods::LoadErrors;
 use crate::policies::degree::{
@@ -41,6 +41,22 @@ impl Correcting<'_> {
         estimate
     }
 
+    /// The error that the step most likely has, to be told: where [`Correcting::error`] keeps something in hand, without that.
+    pub fn likely_error(&mut self, step: MacroStep, errors: &mut StepErrors) -> Estimate {
+        let tolerance = errors.bearable();
+        let mut estimate = self.error(step, tolerance, [None, None]);
+        if let Some((nested, last)) = self.nested(step, tolerance) {
+            let careful = nested.prospect(nested.degree).scaled;
+            let likely = nested.likely(errors.lower_before(step, nested.lower_order()));
+            // Exchanged variables may have had the worst error.
+            if estimate.scaled <= careful {
+                (estimate.scaled, estimate.suspect) = (likely, last.suspect);
+            }
+            errors.note_lower(step, nested.lower());
+        }
+        estimate
+    }
+
     /// The error from the solutions with polynomials of fewer degrees, for methods that have them.
     fn nested_error(
         &mut self,
@@ -61,6 +77,18 @@ impl Correcting<'_> {
         Some(estimate)
     }
 
+    /// Solves with polynomials of one degree and of two degrees less, once for each first correction. Gives whether there are such.
+    fn solve_nested(&mut self) -> bool {
+        let own = &mut *self.own;
+        let start = self.point.as_ref().map(|point| point.system());
+        let system = &own.end.system;
+        let [lower, lowest] = &mut own.nested;
+        let method = &mut *self.method;
+        *own.has_nested.get_or_insert_with(|| {
+            method.nested(system, start, 1, lower) && method.nested(system, start, 2, lowest)
+        })
+    }
+
     /// By how much the solution with polynomials of the present degree differs from that of one degree less, which is the error of the latter,
     /// and before that by how much these differ from those of two degrees less.
     fn nested_differences(
@@ -68,16 +96,13 @@ impl Correcting<'_> {
         step: MacroStep,
         tolerance: &Tolerance,
     ) -> Option<[Estimate; 2]> {
-        let now = self.workers.now();
-        let own = &mut *self.own;
-        let start = self.point.as_ref().map(|point| point.system());
-        let system = &own.end.system;
-        let [lower, lowest] = &mut own.nested;
-        let found = self.method.nested(system, start, 1, lower)
-            && self.method.nested(system, start, 2, lowest);
-        if !found {
+        if !self.solve_nested() {
             return None;
         }
+        let now = self.workers.now();
+        let own = &mut *self.own;
+        let system = &own.end.system;
+        let [lower, lowest] = &own.nested;
         let mut differ = |higher: &[f64], lower: &[f64]| {
             let differences = own.errors.iter_mut().zip(higher.iter().zip(lower));
             differences.for_each(|(error, (higher, lower))| *error = higher - lower);
@@ -194,7 +219,7 @@ impl Correcting<'_> {
                     &own.attempts,
                 );
                 let suspect = Suspect::Variable(variable);
-                estimate.add(error.abs() / allowed, order, suspect);
+                estimate.add_error(error.abs(), allowed, order, suspect);
             }
         }
     }

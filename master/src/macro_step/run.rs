@@ -2,6 +2,7 @@
 
 use super::correcting::{Correcting, Corrector};
 use super::jacobian::PointJacobian;
+use crate::accuracy::{StepErrors, Tolerance};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::CouplingMethod;
@@ -25,6 +26,8 @@ pub struct Run {
     pub step_size: Option<StepSize>,
     /// Present if degrees follow the estimates.
     pub degrees: Option<AutomaticDegrees>,
+    /// What errors the steps are estimated to make.
+    pub errors: StepErrors,
     /// What has become of the look-ahead over the present step, if not its answer.
     pub refusal: Option<RunError>,
     pub plan: TimePlan,
@@ -36,6 +39,16 @@ pub struct ErrorPolicies<'a> {
     pub step_size: Option<&'a mut StepSize>,
     /// About the degrees of its polynomials.
     pub degrees: Option<&'a mut AutomaticDegrees>,
+    /// What is told of it.
+    pub errors: &'a mut StepErrors,
+}
+
+impl ErrorPolicies<'_> {
+    /// What a step may be off by: what the scene says where steps vary, otherwise what is bearable.
+    pub fn tolerance(&self) -> &Tolerance {
+        let varies = self.step_size.as_deref().filter(|own| own.varies());
+        varies.map_or(self.errors.bearable(), StepSize::tolerance)
+    }
 }
 
 impl Run {
@@ -53,6 +66,7 @@ impl Run {
         let policies = ErrorPolicies {
             step_size: self.step_size.as_mut(),
             degrees: self.degrees.as_mut(),
+            errors: &mut self.errors,
         };
         Some((correcting, policies))
     }

@@ -10,6 +10,7 @@ mod row;
 mod statistics;
 mod step_degrees;
 mod verdict;
+mod warning;
 
 pub use contacts::RecordedContact;
 pub(crate) use contacts::outputs as contact_outputs;
@@ -18,10 +19,11 @@ pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
 pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use outcome::{Outcome, Passes};
-pub use row::{Drawn, Row};
+pub use row::{Drawn, OfStep, Row};
 pub use statistics::{
-    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics,
-    StepStatistics, SubsystemStatistics,
+    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, RunErrors,
+    Statistics, StepStatistics, SubsystemStatistics,
 };
 pub use step_degrees::StepDegrees;
 pub use verdict::{Defect, Verdict};
+pub use warning::Warning;

@@ -13,6 +13,18 @@ const STEP: &str = "step";
 const DEGREE: &str = "degree";
 const EXCHANGED_DEGREE: &str = "exchanged_degree";
 
+/// The column of the errors that steps are estimated to make, as shares of the motion so far.
+const ERROR: &str = "error_estimate";
+
+/// What a row tells of its macro step.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct OfStep {
+    /// Degrees of its polynomials, where they follow the estimates.
+    pub degrees: StepDegrees,
+    /// Its estimated error as a share of the motion so far; not known where the method has no corrector.
+    pub error: Option<f64>,
+}
+
 /// Time, outputs, multipliers and residuals at one macro point, in the order of the result columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
@@ -45,12 +57,12 @@ pub enum Drawn {
 
 impl Row {
     /// For the outputs of these `subsystems`, each with its name. `shows_step`: the length of the macro step is a column; so
-    /// are the `degrees` that there are.
+    /// are the degrees and the error that there are.
     pub(crate) fn new<'a>(
         layout: &Layout,
         subsystems: impl Iterator<Item = (&'a str, &'a [String])>,
         shows_step: bool,
-        degrees: StepDegrees,
+        OfStep { degrees, error }: OfStep,
     ) -> Self {
         let mut columns = vec!["t".to_owned()];
         let mut first_outputs = Vec::new();
@@ -82,6 +94,7 @@ impl Row {
             (shows_step, STEP),
             (degrees.multipliers.is_some(), DEGREE),
             (degrees.exchanged.is_some(), EXCHANGED_DEGREE),
+            (error.is_some(), ERROR),
         ];
         let of_step = of_step.into_iter().filter(|(is_shown, _)| *is_shown);
         columns.extend(of_step.map(|(_, name)| name.to_owned()));
@@ -99,12 +112,12 @@ impl Row {
         }
     }
 
-    /// Reads the values at the end of `step`, whose polynomials had these `degrees`; for a sample it lasts until there.
+    /// Reads the values at the end of `step`, of which that is known; for a sample it lasts until there.
     /// `outputs(s)` are those of subsystem `s` at that time.
     pub(crate) fn read<'a>(
         &mut self,
         step: MacroStep,
-        degrees: StepDegrees,
+        OfStep { degrees, error }: OfStep,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64],
         multipliers: &[f64],
@@ -129,10 +142,12 @@ impl Row {
         let degrees = [degrees.multipliers, degrees.exchanged];
         let degrees = degrees.into_iter().flatten();
         self.values.extend(degrees.map(|degree| degree as f64));
+        self.values.extend(error);
     }
 
     /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`; `step` where it varies, the length
-    /// of the macro step that ends here; `degree` and `exchanged_degree` where they follow the estimates, those of its polynomials.
+    /// of the macro step that ends here; `degree` and `exchanged_degree` where they follow the estimates, those of its polynomials;
+    /// `error_estimate` where the method has a corrector, the error of the step as a share of the motion so far.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }

@@ -37,6 +37,8 @@ pub struct Statistics {
     pub degrees: Option<DegreeStatistics>,
     /// Steps by verdict.
     pub verdicts: Verdicts,
+    /// Estimated errors of the steps; absent where the method has no corrector.
+    pub estimated_errors: Option<RunErrors>,
     /// Largest residuals of every joint.
     pub joints: Vec<JointResiduals>,
     /// Initial velocities that were chosen so that they meet the joints.
@@ -148,6 +150,19 @@ impl DegreeStatistics {
             }
         }
     }
+}
+
+/// Errors that the steps of a run are estimated to make, as shares of the motion: of the largest displacement from the start.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunErrors {
+    /// The largest one of a step.
+    pub largest: f64,
+    /// What has it.
+    pub of: String,
+    /// Start of that step in s.
+    pub t: f64,
+    /// Those of all steps together: a guide, as errors may cancel or grow.
+    pub accumulated: f64,
 }
 
 /// Number of macro steps by verdict.

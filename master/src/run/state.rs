@@ -6,7 +6,7 @@ use linchpin_proto::v1;
 use prost::Message;
 
 use super::CoSimulation;
-use crate::accuracy::tolerance;
+use crate::accuracy::{step_errors, tolerance};
 use crate::error::RunError;
 use crate::macro_step::{Corrector, CorrectorState, PointJacobian, look_ahead};
 use crate::methods::Saved;
@@ -31,6 +31,7 @@ pub struct RunState {
     iteration: iteration::State,
     step_size: Option<(step_size::State, tolerance::State)>,
     degrees: Option<degree::State>,
+    errors: step_errors::State,
     guard: Guard,
     statistics: Statistics,
     workers: Vec<WorkerState>,
@@ -70,6 +71,7 @@ impl CoSimulation {
                 .as_ref()
                 .map(|own| (own.state(), own.tolerance().state())),
             degrees: self.run.degrees.as_ref().map(AutomaticDegrees::state),
+            errors: self.run.errors.state(),
             guard: self.guard.clone(),
             statistics: self.statistics.clone(),
             workers: workers.collect(),
@@ -129,6 +131,7 @@ impl CoSimulation {
         if let (Some(own), Some(state)) = (&mut self.run.degrees, state.degrees) {
             own.resume(state);
         }
+        self.run.errors.resume(state.errors);
         self.guard = state.guard;
         self.statistics = state.statistics;
         self.read_row(state.last);

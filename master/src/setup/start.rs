@@ -9,8 +9,9 @@ use super::discover::{
 use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
-use super::steps::{plan_of, step_size_of};
+use super::steps::{plan_of, solver_tolerances, step_size_of};
 use super::{panels, velocities};
+use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{Coupled, Layout};
@@ -19,7 +20,7 @@ use crate::methods::{Built, Given, Lacking};
 use crate::policies::columns::{Basis, Columns, Measuring};
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
-use crate::results::{Guard, Mechanism, Row, Statistics, StepDegrees};
+use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees};
 use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, System};
@@ -79,7 +80,8 @@ impl CoSimulation {
         let named = subsystems.map(|own| (own.name(), &own.output_names[..]));
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
-        let row = Row::new(&run.layout, named, shows_step, degrees);
+        let error = run.errors.of_last_step();
+        let row = Row::new(&run.layout, named, shows_step, OfStep { degrees, error });
         let points: Vec<_> = scene
             .joints
             .iter()
@@ -158,6 +160,7 @@ fn assemble(
     let of_scene = coupling.method;
     let stable = Box::new(move |length| scene::highest_stable_degree(of_scene, length));
     let first_degree = method.corrected().and_then(|own| own.first_degree());
+    let corrects = end.is_some();
     Ok(Run {
         degrees: AutomaticDegrees::new(stable, &layout, highest, first_degree, first, given),
         corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),
@@ -168,6 +171,12 @@ fn assemble(
             coupling.step_control.is_some(),
         ),
         refusal: None,
+        errors: StepErrors::new(
+            corrects,
+            &layout,
+            solver_tolerances(&workers),
+            &workers.now(),
+        ),
         layout,
         workers,
         method,

@@ -40,10 +40,21 @@ pub(super) fn step_size_of(
         (None, _) if coupling.has_automatic_degree() => (Rule::Equal, ANY_ERROR),
         (None, _) => return None,
     };
-    let subsystems = workers.subsystems.iter();
     let tolerances = [control.tolerance, control.absolute_tolerance];
-    let solvers = subsystems.map(|own| own.tolerance.unwrap_or_default());
-    let tolerance = Tolerance::new(tolerances, layout, solvers.collect(), &workers.now());
+    let tolerance = Tolerance::new(
+        tolerances,
+        layout,
+        solver_tolerances(workers),
+        &workers.now(),
+    );
     let span = [coupling.macro_step, scene.t_end];
     Some(StepSize::new(rule, control, span, tolerance))
+}
+
+/// For each subsystem the error that its solver allows itself; 0 where it tells none.
+pub(super) fn solver_tolerances(workers: &Workers) -> Vec<f64> {
+    let subsystems = workers.subsystems.iter();
+    subsystems
+        .map(|own| own.tolerance.unwrap_or_default())
+        .collect()
 }

@@ -7,7 +7,7 @@ use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print};
+use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print, warn};
 use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
@@ -122,6 +122,9 @@ impl Job<'_> {
         }
         if !output.quiet {
             print(format_args!("{}\n", report.summary(scene, case)))?;
+        }
+        for warning in report.statistics.warnings() {
+            warn(warning);
         }
         Ok(report)
     }

@@ -52,6 +52,8 @@ struct Json<'a> {
     settings: Option<Settings>,
     wall_time: f64,
     statistics: &'a Statistics,
+    /// What speaks against the results.
+    warnings: Vec<String>,
     errors: Vec<ColumnErrorJson<'a>>,
 }
 
@@ -98,6 +100,12 @@ impl RunReport {
             settings: settings(scene),
             wall_time: self.wall_time,
             statistics: &self.statistics,
+            warnings: self
+                .statistics
+                .warnings()
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
             errors: self
                 .errors
                 .iter()
@@ -170,6 +178,13 @@ impl RunReport {
             verdicts.poor,
             verdicts.uncorrected
         )?;
+        if let Some(errors) = &statistics.estimated_errors {
+            writeln!(
+                text,
+                "  estimated     {:>9.2e}   of the motion the largest error of a step, {:.2e} all together",
+                errors.largest, errors.accumulated
+            )?;
+        }
         if let Some(steps) = &statistics.steps {
             write_steps(steps, text)?;
         }

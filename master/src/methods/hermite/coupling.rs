@@ -40,7 +40,6 @@ const NAME: &str = "hermite";
 pub struct HermiteCoupling {
     family: Family,
     has_limiter: bool,
-    has_signals: bool,
     curves: HermiteCurves,
     /// The corrected curves of the last step.
     before: HermiteCurves,
@@ -103,7 +102,6 @@ impl HermiteCoupling {
         let mut method = Self {
             family,
             has_limiter,
-            has_signals: layout.has_signals(),
             multipliers: vec![0.0; layout.rows.len()],
             before: curves.clone(),
             held: vec![0.0; size],
@@ -311,7 +309,7 @@ impl Corrected for HermiteCoupling {
         fewer: usize,
         change: &mut [f64],
     ) -> bool {
-        let Some(degree) = self.degree.checked_sub(fewer).filter(|_| self.tells_error()) else {
+        let Some(degree) = self.degree.checked_sub(fewer) else {
             return false;
         };
         self.assemble(end, [start, start], degree);
@@ -325,9 +323,8 @@ impl Corrected for HermiteCoupling {
         self.curves.expect_rate(rate);
     }
 
-    /// Without moments the difference from the prediction tells the error.
     fn tells_error(&self) -> bool {
-        self.family.degree > LEAST_DEGREE || self.family.moments_of_signals() > 0 && self.has_signals
+        true
     }
 
     fn degree(&self) -> usize {
@@ -336,7 +333,7 @@ impl Corrected for HermiteCoupling {
 
     /// Of the degrees whose errors moments tell the one with the fewest columns: a first step is short.
     fn first_degree(&self) -> Option<usize> {
-        self.tells_error().then_some(FIRST_DEGREE.min(self.family.degree))
+        Some(FIRST_DEGREE.min(self.family.degree))
     }
 
     fn lowest_degree(&self) -> usize {

@@ -52,6 +52,36 @@ pub struct Anew {
 }
 
 impl Nested {
+    /// By how much the solution with one degree less differs from that with two degrees less, and the power of the step with which that falls.
+    pub fn lower(&self) -> f64 {
+        self.difference / self.fell
+    }
+
+    /// The power of the step with which [`Nested::lower`] falls.
+    pub fn lower_order(&self) -> usize {
+        2 * self.degree - 3
+    }
+
+    /// The error that the step most likely has. What a difference of lower degrees was `before` counts as well: it may pass through zero.
+    ///
+    /// Where a step resolves the motion, degree `p` divides the error by `4 (2p - 1)(2p + 1)` over a square of the frequency times the length, so
+    /// that the factors of two degrees in a row are as `(2p - 3)/(2p + 1)`. Where it does not, nothing is known but what is kept in hand.
+    pub fn likely(&self, before: f64) -> f64 {
+        let p = self.degree as f64;
+        let lower = self.lower().max(before);
+        let fell = if lower > 0.0 {
+            self.difference / lower
+        } else {
+            1.0
+        };
+        // Below two radians in a step.
+        let is_resolved = fell * (2.0 * p - 3.0) * (2.0 * p - 1.0) < 1.0;
+        match is_resolved {
+            true => self.difference * fell * (2.0 * p - 3.0) / (2.0 * p + 1.0),
+            false => self.prospect(self.degree).scaled,
+        }
+    }
+
     /// The error that the step would have had with polynomials of this degree, and the power of the step with which it falls.
     ///
     /// Every further degree changes the error by the same factor, and the last one has changed it by what the differences show; half of a

@@ -23,6 +23,9 @@ pub struct Settings {
     pub most_of_allowed: f64,
     /// Share of a correction below which what it misses is rounding, which passes do not take away.
     pub rounding: f64,
+    /// Share of a correction that may be missed with new columns where steps are fixed. What is missed more often grows from step to step:
+    /// larger lets light parts under heavy loads run away, smaller takes passes where the curvature of the motion is all that is missed.
+    pub astray: f64,
     /// Rate of convergence above which new columns come with the next look-ahead. Smaller asks more often, larger takes more passes:
     /// at 0.3 one pass less pays for the columns of two or three inputs.
     pub slow: f64,
@@ -46,6 +49,7 @@ impl Settings {
             most_left: if varies { 3e-3 } else { MOST_LEFT },
             most_of_allowed: 0.1,
             rounding: 1e-8,
+            astray: 0.1,
             slow: 0.3,
             too_slow: 0.5,
             above_noise: 2.0,
@@ -97,6 +101,8 @@ pub struct IterationControl {
     settings: Settings,
     rule: Jacobian,
     iterations: Option<Iterations>,
+    /// Whether a step that is not solved may be repeated with a shorter one.
+    varies: bool,
     /// Rate of columns of which no step has shown it: where steps vary they are trusted for one step.
     unknown_rate: Option<f64>,
     state: State,
@@ -142,6 +148,7 @@ impl IterationControl {
             settings: Settings::new(varies),
             rule,
             iterations,
+            varies,
             unknown_rate: varies.then_some(0.0),
             state: State {
                 are_fresh: true,
@@ -257,7 +264,20 @@ impl IterationControl {
         if let Some(change) = state.last.of_allowed {
             let most = self.settings.most_of_allowed;
             let leaves = |share: f64| share > self.settings.rounding && share * change > most;
-            return change > most && left.is_none_or(leaves);
+            // Where steps are fixed only what is known to be left of what is bearable counts, beside the rule below.
+            match self.varies {
+                true => return change > most && left.is_none_or(leaves),
+                false if change > most && left.is_some_and(leaves) => return true,
+                // The step before has shown that corrections miss their aim.
+                false
+                    if state
+                        .fresh_rate
+                        .is_some_and(|rate| rate > self.settings.astray) =>
+                {
+                    return state.last.of_usual > self.settings.most_left;
+                }
+                false => {}
+            }
         }
         if self.rule == Jacobian::EveryStep || state.are_fresh {
             return false;
@@ -329,7 +349,7 @@ impl IterationControl {
         let change = state
             .last
             .of_allowed
-            .filter(|_| self.iterations.is_none())?;
+            .filter(|_| self.iterations.is_none() && self.varies)?;
         let rate = state.passes.rate?;
         (rate.min(1.0) * change > 1.0).then_some(Unconverged {
             change: state.last,
@@ -369,11 +389,6 @@ impl IterationControl {
     /// How the corrections of the step went.
     pub fn passes(&self) -> Passes {
         self.state.passes
-    }
-
-    /// Whether it matters what the corrections have missed.
-    pub fn learns(&self) -> bool {
-        self.rule != Jacobian::EveryStep
     }
 
     /// Whether the columns at hand belong to the present step.

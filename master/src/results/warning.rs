@@ -1,0 +1,138 @@
+//! What a run that has come to its end must not be silent about.
+
+use std::fmt;
+
+use super::statistics::Statistics;
+
+/// Share of the macro steps that may be poor.
+const MOST_POOR: f64 = 0.01;
+
+/// The largest error of one macro step that is not worth a word, as a share of the motion.
+const OF_STEP: f64 = 0.01;
+
+/// The same of all steps together.
+const OF_RUN: f64 = 0.1;
+
+/// Why the results of a run may be wrong.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Warning {
+    /// The corrections of many macro steps have missed their aim.
+    Poor {
+        /// So many.
+        steps: u64,
+        /// Of so many.
+        of: u64,
+    },
+    /// A macro step is estimated to be off by much.
+    ErrorOfStep {
+        /// By this share of the motion.
+        error: f64,
+        /// This quantity.
+        of: String,
+        /// From this time on in s.
+        t: f64,
+    },
+    /// All macro steps together are estimated to be off by much.
+    ErrorOfRun {
+        /// By this share of the motion.
+        error: f64,
+    },
+}
+
+impl Statistics {
+    /// What speaks against the results.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        let (steps, of) = (self.verdicts.poor, self.macro_steps);
+        if steps as f64 > MOST_POOR * of as f64 {
+            warnings.push(Warning::Poor { steps, of });
+        }
+        let Some(errors) = &self.estimated_errors else {
+            return warnings;
+        };
+        if errors.largest > OF_STEP {
+            warnings.push(Warning::ErrorOfStep {
+                error: errors.largest,
+                of: errors.of.clone(),
+                t: errors.t,
+            });
+        }
+        if errors.accumulated > OF_RUN {
+            warnings.push(Warning::ErrorOfRun {
+                error: errors.accumulated,
+            });
+        }
+        warnings
+    }
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Poor { steps, of } => write!(
+                f,
+                "{steps} of {of} macro steps are poor: their corrections missed their aim, so that results there are not to be \
+                 trusted; choose a shorter coupling.macro_step, a coupling.tolerance, or coupling.iterations"
+            ),
+            Self::ErrorOfStep { error, of, t } => write!(
+                f,
+                "the macro step at t = {t:.6} s is estimated to be off by {:.2e} % of the motion ({of}); choose a shorter \
+                 coupling.macro_step or a coupling.tolerance",
+                100.0 * error
+            ),
+            Self::ErrorOfRun { error } => write!(
+                f,
+                "the errors of all macro steps are estimated as {:.2e} % of the motion together; choose a shorter \
+                 coupling.macro_step or a smaller coupling.tolerance",
+                100.0 * error
+            ),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::statistics::{RunErrors, Verdicts};
+    use super::*;
+
+    fn statistics(poor: u64, errors: Option<[f64; 2]>) -> Statistics {
+        Statistics {
+            macro_steps: 1000,
+            verdicts: Verdicts {
+                poor,
+                good: 1000 - poor,
+                ..Verdicts::default()
+            },
+            estimated_errors: errors.map(|[largest, accumulated]| RunErrors {
+                largest,
+                accumulated,
+                of: "a.x".to_owned(),
+                t: 0.25,
+            }),
+            ..Statistics::default()
+        }
+    }
+
+    #[test]
+    fn a_sound_run_is_not_warned_of() {
+        assert!(statistics(0, None).warnings().is_empty());
+        assert!(statistics(10, Some([1e-3, 0.05])).warnings().is_empty());
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_with_place_and_value() {
+        let all = statistics(11, Some([0.02, 0.3])).warnings();
+        let texts: Vec<String> = all.iter().map(Warning::to_string).collect();
+        let [poor, of_step, of_run] = &texts[..] else {
+            panic!("{texts:?}");
+        };
+        assert!(poor.contains("11 of 1000"), "{poor}");
+        assert!(
+            of_step.contains("t = 0.250000 s")
+                && of_step.contains("2.00e0 %")
+                && of_step.contains("a.x"),
+            "{of_step}"
+        );
+        assert!(of_run.contains("3.00e1 %"), "{of_run}");
+    }
+}
