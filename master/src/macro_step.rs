@@ -9,6 +9,7 @@
 //! * `correcting`: prediction, look-ahead and correction, and what they teach;
 //! * `jacobian`: conditions and the workers' responses, linearised;
 //! * `error`: the error of a step, and with it the degrees of the next one;
+//! * `unresolved`: signals that the step does not resolve;
 //! * `rejection`: what may stand against a step;
 //! * `run`: what takes part.
 
@@ -18,6 +19,7 @@ mod error;
 mod jacobian;
 mod rejection;
 mod run;
+mod unresolved;
 
 pub(crate) use advance::reach;
 pub(crate) use correcting::{Corrector, State as CorrectorState};
@@ -57,8 +59,10 @@ struct Accepted {
     iteration: IterationControl,
     /// Its error, and the one that it would have had with the degrees of the next one, where the length or the degrees follow it.
     estimates: Option<[Estimate; 2]>,
-    /// Its error relative to what is bearable; not known without a corrector.
+    /// Its error relative to what is bearable; not known without a corrector, and where an exchanged variable has jumped.
     error: Option<Estimate>,
+    /// Whether an exchanged variable has jumped.
+    has_jumped: bool,
 }
 
 /// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
@@ -74,17 +78,19 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
             iteration,
             estimates,
             error: None,
+            has_jumped: false,
         });
     };
     if let Some(error) = refusal {
         return Err(error.into());
     }
     outcome.solving += own.correct(step)?;
+    let mut has_jumped = false;
     let step_size = policies.step_size.as_deref();
     if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
         let next = own.choose_degrees(policies.degrees.as_deref_mut(), step, step_size, &found);
-        if step_size.is_too_long(&found) {
+        if step_size.is_too_long(step, &found) {
             return Err(Rejection::by_error(
                 own.layout,
                 step,
@@ -92,6 +98,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
                 [found, next],
             ));
         }
+        has_jumped = step_size.is_jump(step, &found);
         estimates = Some([found, next]);
     }
     own.foresee(policies.errors);
@@ -108,7 +115,8 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
     Ok(Accepted {
         iteration,
         estimates,
-        error: Some(error),
+        error: Some(error).filter(|_| !has_jumped),
+        has_jumped,
     })
 }
 
@@ -159,6 +167,9 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         let layout = own.layout;
         own.method
             .lend(&mut |curves, _| workers.request_advance(layout, step, curves));
+        if accepted.has_jumped {
+            own.method.restart_exchanged();
+        }
         own.accept(policies.degrees);
         columns = own.cost_of_columns();
         if let Some(error) = &accepted.error {
@@ -166,6 +177,7 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         }
     }
     match (&mut run.step_size, accepted.estimates) {
+        (Some(step_size), _) if accepted.has_jumped => step_size.pass_jump(step),
         (Some(step_size), Some([found, next])) => {
             step_size.accept(step, &next, next == found, columns)
         }

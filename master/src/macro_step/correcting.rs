@@ -41,6 +41,8 @@ pub struct Corrector {
     /// Errors of the unknowns of multipliers as positions feel them.
     pub(super) errors: Vec<f64>,
     pub(super) position_errors: PositionErrors,
+    /// What the last change makes of the inputs.
+    pub(super) raised: Vec<f64>,
     check: LinearisationCheck,
     pub(super) attempts: Attempts,
     deferred: DeferredCorrection,
@@ -75,6 +77,7 @@ impl Corrector {
             has_nested: None,
             errors: vec![0.0; unknowns],
             position_errors: PositionErrors::new(size),
+            raised: Vec::new(),
             check: LinearisationCheck::new(size),
             attempts: Attempts::default(),
             deferred: DeferredCorrection::new(unknowns),

@@ -74,6 +74,7 @@ impl Correcting<'_> {
         let changes = multipliers.map(|unknown| self.own.change[unknown].abs());
         estimate.change = changes.fold(0.0, f64::max);
         self.add_errors_of_exchanged(tolerance, None, &mut estimate);
+        self.add_unresolved_signals(tolerance, &mut estimate);
         Some(estimate)
     }
 

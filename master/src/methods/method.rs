@@ -193,6 +193,9 @@ pub trait Corrected: CouplingMethod {
     /// The multipliers jump in the present step: what they were before is no help.
     fn restart(&mut self) {}
 
+    /// Exchanged variables jump in the present step, which is taken: what they were before it is no help.
+    fn restart_exchanged(&mut self) {}
+
     /// Gives the polynomials of some variables another degree.
     fn set_degree(&mut self, _variables: Range<usize>, _degree: usize) {}
 

@@ -85,6 +85,8 @@ pub struct StepStatistics {
     pub rejected: u64,
     /// The same by cause.
     pub rejected_by_cause: Rejections,
+    /// Steps of the least length in which an exchanged variable has jumped.
+    pub jumps: u64,
     /// The shortest step that was accepted.
     pub shortest: Option<StepAt>,
     /// The longest one.

@@ -105,8 +105,8 @@ impl History {
 
     /// The first `variables` variables jump in the next step: their extrapolation holds the newest value, their interpolation the
     /// value at the end, and from there their degree grows as at the start.
-    pub fn restart(&mut self, variables: usize) {
-        self.smooth_points[..variables].fill(0);
+    pub fn restart(&mut self, variables: Range<usize>) {
+        self.smooth_points[variables].fill(0);
     }
 
     /// The polynomials of some variables have this degree from now on, at most the highest one with which the history began.

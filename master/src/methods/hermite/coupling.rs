@@ -348,6 +348,10 @@ impl Corrected for HermiteCoupling {
         self.relaxed.iter().any(|one| one.is_heard)
     }
 
+    fn restart_exchanged(&mut self) {
+        self.curves.restart_exchanged();
+    }
+
     fn set_degree(&mut self, variables: Range<usize>, degree: usize) {
         if variables.start == 0 {
             self.degree = degree.clamp(LEAST_DEGREE, self.family.degree);

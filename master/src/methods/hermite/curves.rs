@@ -39,6 +39,8 @@ pub struct HermiteCurves {
     jerks: Vec<f64>,
     past_length: f64,
     has_past: bool,
+    /// Whether exchanged variables jump in the present step.
+    has_jumped: bool,
     /// What share corrections are expected to miss.
     rate: Option<f64>,
     history: History,
@@ -87,6 +89,7 @@ impl HermiteCurves {
             jerks: vec![0.0; size],
             past_length: 1.0,
             has_past: false,
+            has_jumped: false,
             rate: None,
             starts,
             rotations,
@@ -141,6 +144,12 @@ impl HermiteCurves {
         self.history = past.history;
         self.attitudes = past.attitudes;
         self.shape_curves();
+    }
+
+    /// Exchanged variables jump in the present step: the next ones do not continue them.
+    pub fn restart_exchanged(&mut self) {
+        self.history.restart(self.are_lengths.len()..self.kinds.len());
+        self.has_jumped = true;
     }
 
     /// Gives the multipliers' polynomials this degree from the next prediction on.
@@ -367,6 +376,12 @@ impl HermiteCurves {
             }
         }
         std::mem::swap(&mut self.past, &mut self.curves);
+        if std::mem::take(&mut self.has_jumped) {
+            for variable in self.are_lengths.len()..self.kinds.len() {
+                self.past[variable] = SharePolynomial::of(&self.starts[variable][..1]);
+                self.jerks[variable] = 0.0;
+            }
+        }
         self.past_length = self.length;
         self.has_past = true;
         self.history.push(self.length, ends);

@@ -24,6 +24,8 @@ pub struct Hermite {
     pub degree_follows: bool,
     /// Most instants inside a step at which the workers tell their positions.
     pub instants: usize,
+    /// Whether the scene says how many.
+    pub instants_are_given: bool,
     /// Whether top conditions are relaxed where the top coefficients do not fall; default true.
     pub limiter: bool,
     /// Whether connected signals are polynomials through past values; default: only where a worker tells nothing inside a step.
@@ -42,7 +44,7 @@ const KEYS: [Key; 4] = [
         .means("[what holds at the start of a step](../theory/hermite.md#the-variants)"),
     DEGREE,
     Key::new("instants", Takes::Whole(1, MOST_INSTANTS))
-        .default("4, or the degree if that is more")
+        .default("4, or the degree if that is more; with connected signals two more than the degree")
         .means(
             "instants inside a macro step at which the workers tell their positions, for degree 3 and more \
              and for connected signals; at least degree - 1. More tell faster responses apart: 3 rad within a step each",
@@ -76,6 +78,7 @@ impl Definition for Hermite {
             None | Some(Degree::Automatic) => HIGHEST_DEGREE,
             Some(Degree::Fixed(degree)) => degree,
         };
+        let instants_are_given = instants.is_some();
         let instants = match instants {
             Some(field) => field.whole_within(highest - 1, MOST_INSTANTS, problems),
             None => Some(INSTANTS.max(highest)),
@@ -87,6 +90,7 @@ impl Definition for Hermite {
             degree: highest,
             degree_follows: degree? == Degree::Automatic,
             instants: instants?,
+            instants_are_given,
             continues_signals: section.get(&EXCHANGED_DEGREE).is_some(),
         })
     }
@@ -115,8 +119,13 @@ impl Parameters for Hermite {
 
     fn instants(&self, has_signals: bool) -> Vec<f64> {
         let needs_signals = has_signals && !self.continues_signals;
+        // More than a curve meets by its moments: the others show what it misses.
+        let instants = match needs_signals && !self.instants_are_given {
+            true => self.instants.max(self.degree + 2),
+            false => self.instants,
+        };
         match self.degree > LEAST_DEGREE || needs_signals {
-            true => self.rule(self.instants, has_signals).shares,
+            true => self.rule(instants, has_signals).shares,
             false => Vec::new(),
         }
     }

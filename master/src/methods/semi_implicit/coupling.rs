@@ -244,7 +244,12 @@ impl Corrected for SemiImplicit {
     }
 
     fn restart(&mut self) {
-        self.state.history.restart(self.rows);
+        self.state.history.restart(0..self.rows);
+    }
+
+    fn restart_exchanged(&mut self) {
+        let variables = self.state.history.newest().len();
+        self.state.history.restart(self.rows..variables);
     }
 
     fn set_degree(&mut self, variables: Range<usize>, degree: usize) {

@@ -16,7 +16,7 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::accuracy::{Estimate, Tolerance};
+use crate::accuracy::{Estimate, Suspect, Tolerance};
 use crate::results::StepStatistics;
 use crate::time::MacroStep;
 
@@ -143,8 +143,36 @@ impl StepSize {
     }
 
     /// Whether a step with this error is too long.
-    pub fn is_too_long(&self, estimate: &Estimate) -> bool {
-        self.varies() && estimate.scaled > 1.0
+    pub fn is_too_long(&self, step: MacroStep, estimate: &Estimate) -> bool {
+        self.varies() && estimate.scaled > 1.0 && !self.is_jump(step, estimate)
+    }
+
+    /// Whether an exchanged variable jumps in `step`: in the shortest step its error is the jump, and what follows from that for the motion
+    /// goes with the length.
+    pub fn is_jump(&self, step: MacroStep, estimate: &Estimate) -> bool {
+        let is_shortest = step.length <= self.control.least_step * (1.0 + SETTINGS.rounding);
+        let is_of_exchanged = matches!(estimate.suspect, Suspect::Variable(_));
+        self.varies() && estimate.scaled > 1.0 && is_shortest && is_of_exchanged
+    }
+
+    /// Takes a step in which an exchanged variable jumps; the length of the next one in s. What the errors were before says nothing about it.
+    pub fn pass_jump(&mut self, step: MacroStep) -> f64 {
+        let state = &mut self.state;
+        let longest = state
+            .statistics
+            .longest
+            .map_or(self.first, |step| step.length);
+        (state.before, state.is_repeated) = (1.0, false);
+        (state.rejected, state.careful) = (None, None);
+        state.statistics.jumps += 1;
+        state.statistics.accept(step);
+        let next = self.allowed(SETTINGS.most_shrinking * longest);
+        tracing::debug!(
+            H = step.length,
+            next_H = next,
+            "an exchanged variable has jumped"
+        );
+        next
     }
 
     /// The time that is left behind a step, in lengths of it.

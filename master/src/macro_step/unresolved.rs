@@ -1,0 +1,60 @@
+//! Connected signals that the polynomials over a macro step do not resolve: jumps, pulses, vibrations of many periods.
+
+use super::correcting::Correcting;
+use crate::accuracy::{Estimate, Suspect, Tolerance};
+use crate::layout::What;
+use crate::system::Outputs;
+use crate::workers::Ahead;
+
+/// A curve that misses its signal inside the step by more than this share of what the signal does there says nothing about it.
+const UNRESOLVED: f64 = 0.2;
+
+impl Correcting<'_> {
+    /// Adds signals that the step does not resolve. Moments of the difference between curve and signal vanish whatever is between them, so the
+    /// values themselves are compared at the instants that the worker tells: the error is what the curve misses.
+    pub fn add_unresolved_signals(&mut self, tolerance: &Tolerance, estimate: &mut Estimate) {
+        let inside = &self.layout.inside;
+        if inside.shares.is_empty() {
+            return;
+        }
+        let ahead = self.workers.looked(Ahead::Step);
+        let now = self.workers.now();
+        let own = &mut *self.own;
+        let system = &own.end.system;
+        system.raise(self.layout, &own.change, &mut own.raised);
+        let curves = self.method.point().inside;
+        for exchanged in self
+            .layout
+            .exchanged
+            .iter()
+            .filter(|one| one.rates.is_none())
+        {
+            let What::Output(place) = exchanged.what else {
+                continue;
+            };
+            let subsystem = exchanged.subsystem;
+            let outputs = self.layout.outputs[subsystem].len();
+            let start = now.of(subsystem)[place];
+            let mut range = [start, start];
+            let mut missed: f64 = 0.0;
+            for (instant, curve) in curves.iter().enumerate() {
+                let told = inside.find(subsystem, instant, place);
+                let Some(told) = told.filter(|told| *told < ahead.inside(subsystem).len()) else {
+                    continue;
+                };
+                let columns = system.columns_of(self.layout, subsystem);
+                let responses = columns.filter_map(|column| {
+                    let column_of = &own.end.columns.all()[column];
+                    Some(column_of.derivatives.get(outputs + told)? * own.raised[column])
+                });
+                let value = ahead.inside(subsystem)[told] + responses.sum::<f64>();
+                range = [range[0].min(value), range[1].max(value)];
+                missed = missed.max((curve[exchanged.first] - value).abs());
+            }
+            if missed > UNRESOLVED * (range[1] - range[0]) {
+                let allowed = tolerance.allowed_in_step(subsystem, exchanged.what);
+                estimate.add_error(missed, allowed, 1, Suspect::Variable(exchanged.first));
+            }
+        }
+    }
+}
