@@ -251,7 +251,7 @@ fn the_state_of_another_scene_is_refused() {
     let error = start(&scene(OSCILLATOR, &[])).resume(state, stopped);
     let told = error.unwrap_err().to_string();
     assert!(
-        told.contains("\"step\"") && told.contains("nothing more"),
+        told.contains("\"step\"") && told.contains("\"error_estimate\""),
         "{told}"
     );
 }

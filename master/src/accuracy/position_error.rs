@@ -49,13 +49,6 @@ pub struct Difference<'a> {
 /// How many times its size the closing of an open joint moves positions, or velocities times the length of the step, at most.
 const CLOSING: f64 = 4.0;
 
-/// Of the unknowns of exchanged motion so many belong to the end of the step; the others are factors of `s^3 (1 - s)^2` and the like, whose mean
-/// is at most this.
-const MOTION_INSIDE: [f64; 2] = [2.0, 1.0 / 60.0];
-
-/// The same for connected signals, with `s (1 - s)`.
-const SIGNAL_INSIDE: [f64; 2] = [1.0, 1.0 / 6.0];
-
 /// Memory for the estimate.
 #[derive(Debug, Clone, Default)]
 pub struct PositionErrors {
@@ -122,22 +115,10 @@ impl PositionErrors {
                 estimate.add_error(change, allowed, 1, suspect);
             }
         }
-        for exchanged in &layout.exchanged {
-            let allowed = match exchanged.rates {
-                Some(_) => tolerance.allowed_of_variable(exchanged.subsystem, exchanged.what),
-                None => tolerance.allowed_in_step(exchanged.subsystem, exchanged.what),
-            };
-            let [ends, inside] = match exchanged.rates {
-                Some(_) => MOTION_INSIDE,
-                None => SIGNAL_INSIDE,
-            };
+        for exchanged in layout.exchanged.iter().filter(|one| one.rates.is_none()) {
+            let allowed = tolerance.allowed_in_step(exchanged.subsystem, exchanged.what);
             for variable in exchanged.first..exchanged.first + exchanged.size() {
-                let own = unknowns[system.unknowns().of(variable)].iter().enumerate();
-                let sizes = own.map(|(number, change)| match (number as f64) < ends {
-                    true => change.abs(),
-                    false => inside * change.abs(),
-                });
-                let change = sizes.fold(0.0, f64::max);
+                let change = unknowns[system.unknowns().of(variable).start].abs();
                 estimate.add_error(change, allowed, 1, Suspect::Variable(variable));
             }
         }

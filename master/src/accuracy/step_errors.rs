@@ -99,7 +99,8 @@ impl StepErrors {
 
     /// Takes by how much the multipliers alone move a position over the step: motion that is tiny beside that is rounding.
     pub fn take_effect(&mut self, [subsystem, output]: [usize; 2], effect: f64) {
-        self.bearable.floor(subsystem, output, REST * effect.abs());
+        self.bearable
+            .foresee_size(subsystem, output, REST * effect.abs());
     }
 
     /// The difference that lower degrees made in the step before, as it would have been over `step` if it falls with this `order`.
@@ -119,6 +120,9 @@ impl StepErrors {
 
     /// Takes the error of a step that is accepted, told relative to what is bearable.
     pub fn accept(&mut self, layout: &Layout, step: MacroStep, estimate: &Estimate) {
+        if self.state.last.is_none() {
+            return;
+        }
         self.state.last = Some(BEARABLE * estimate.scaled);
         self.state.lower[0] = self.state.lower[1];
         let Some((group, size)) = self.bearable.size_of(layout, estimate.suspect) else {

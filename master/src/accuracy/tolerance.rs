@@ -36,6 +36,8 @@ pub struct State {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Size {
     largest: f64,
+    /// What it may become in the present attempt at a step.
+    ahead: f64,
     most: f64,
     path: f64,
     /// Number of values that the path goes through.
@@ -72,7 +74,11 @@ impl Tolerance {
         let mut own = Self::of([share, 0.0], true, layout, solvers, outputs);
         for subsystem in 0..own.solvers.len() {
             for output in 0..own.state.watched[subsystem].len() {
-                own.floor(subsystem, output, own.solvers[subsystem] / share);
+                if let Some(group) = own.group_of_output(subsystem, output) {
+                    let least = own.solvers[subsystem] / share;
+                    let size = &mut own.state.sizes[group];
+                    size.largest = size.largest.max(least).min(size.most);
+                }
             }
         }
         own
@@ -127,6 +133,7 @@ impl Tolerance {
     fn add_size(&mut self, most: f64) -> usize {
         self.state.sizes.push(Size {
             largest: 0.0,
+            ahead: 0.0,
             most,
             path: 0.0,
             points: 0.0,
@@ -180,29 +187,30 @@ impl Tolerance {
         }
     }
 
-    /// Takes values that may be reached: sizes grow with them, paths do not.
+    /// Takes values that may be reached in the present attempt at a step.
     pub fn foresee(&mut self, outputs: &dyn Outputs) {
-        for (subsystem, watched) in self.state.watched.iter().enumerate() {
-            for (&value, watched) in outputs.of(subsystem).iter().zip(watched) {
-                if let Some(watched) = watched.filter(|_| value.is_finite()) {
-                    let size = &mut self.state.sizes[watched.size];
-                    size.largest = size
-                        .largest
-                        .max((value - watched.start).abs())
-                        .min(size.most);
+        for size in &mut self.state.sizes {
+            size.ahead = 0.0;
+        }
+        for subsystem in 0..self.state.watched.len() {
+            // What is told inside the step stands behind the outputs at its end.
+            let number = self.state.watched[subsystem].len();
+            for (output, &value) in outputs.of(subsystem).iter().enumerate().take(number) {
+                if let Some(watched) = self.state.watched[subsystem][output] {
+                    self.foresee_size(subsystem, output, (value - watched.start).abs());
                 }
             }
         }
     }
 
-    /// Takes a size of one output that its group has at least.
-    pub fn floor(&mut self, subsystem: usize, output: usize, size: f64) {
+    /// Takes a size of one output that its group may have in the present attempt at a step.
+    pub fn foresee_size(&mut self, subsystem: usize, output: usize, size: f64) {
         if let Some(group) = self
             .group_of_output(subsystem, output)
             .filter(|_| size.is_finite())
         {
             let own = &mut self.state.sizes[group];
-            own.largest = own.largest.max(size).min(own.most);
+            own.ahead = own.ahead.max(size).min(own.most);
         }
     }
 
@@ -219,11 +227,12 @@ impl Tolerance {
     /// Size of a group so far.
     pub fn size(&self, group: usize) -> f64 {
         let sizes = &self.state.sizes;
+        let own = |size: &Size| size.largest.max(size.ahead);
         let turned = match (self.lever > 0.0, sizes.as_slice()) {
-            (true, [_, angle, ..]) if group == 0 => self.lever * angle.largest,
+            (true, [_, angle, ..]) if group == 0 => self.lever * own(angle),
             _ => 0.0,
         };
-        sizes[group].largest.max(turned)
+        own(&sizes[group]).max(turned)
     }
 
     /// The group of a coupling output, if it is watched.

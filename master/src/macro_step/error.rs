@@ -44,7 +44,10 @@ impl Correcting<'_> {
     /// The error that the step most likely has, to be told: where [`Correcting::error`] keeps something in hand, without that.
     pub fn likely_error(&mut self, step: MacroStep, errors: &mut StepErrors) -> Estimate {
         let tolerance = errors.bearable();
+        // What other attempts at the step have told is left out: a step is told the same error whatever was tried before it.
+        let attempts = std::mem::take(&mut self.own.attempts);
         let mut estimate = self.error(step, tolerance, [None, None]);
+        self.own.attempts = attempts;
         if let Some((nested, last)) = self.nested(step, tolerance) {
             let careful = nested.prospect(nested.degree).scaled;
             let likely = nested.likely(errors.lower_before(step, nested.lower_order()));

@@ -8,7 +8,7 @@ use crate::layout::Layout;
 use crate::methods::CouplingMethod;
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
-use crate::policies::step_size::StepSize;
+use crate::policies::step_size::{Rule, StepSize};
 use crate::time::TimePlan;
 use crate::workers::Workers;
 
@@ -44,10 +44,11 @@ pub struct ErrorPolicies<'a> {
 }
 
 impl ErrorPolicies<'_> {
-    /// What a step may be off by: what the scene says where steps vary, otherwise what is bearable.
+    /// What a step may be off by: what the scene says where steps vary or did so, otherwise what is bearable.
     pub fn tolerance(&self) -> &Tolerance {
-        let varies = self.step_size.as_deref().filter(|own| own.varies());
-        varies.map_or(self.errors.bearable(), StepSize::tolerance)
+        let of_scene = self.step_size.as_deref();
+        let of_scene = of_scene.filter(|own| own.rule() != Rule::Equal);
+        of_scene.map_or(self.errors.bearable(), StepSize::tolerance)
     }
 }
 

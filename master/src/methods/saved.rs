@@ -32,6 +32,20 @@ impl Saved {
         }
     }
 
+    /// Compares whose states this one and another are.
+    ///
+    /// # Errors
+    /// The other one is of another method.
+    pub fn compare(&self, other: &Self) -> Result<(), Unreadable> {
+        match self.of == other.of {
+            true => Ok(()),
+            false => Err(Unreadable {
+                found: other.of.clone(),
+                expected: self.of.clone(),
+            }),
+        }
+    }
+
     /// Reads the state `of` a method back.
     ///
     /// # Errors

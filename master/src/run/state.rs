@@ -94,6 +94,7 @@ impl CoSimulation {
     /// # Errors
     /// The state belongs to another scene or another method, and what ends a run.
     pub fn resume(&mut self, state: RunState, stopped: Self) -> Result<(), RunError> {
+        self.run.method.state().compare(&state.method)?;
         let names = self.names();
         if state.names != names {
             return Err(RunError::OtherRun(first_difference(&state.names, &names)));

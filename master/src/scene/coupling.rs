@@ -15,7 +15,7 @@ pub(super) const METHOD_KEY: &str = "coupling.method";
 /// Keys that every method has.
 const COMMON: [Key; 5] = [
     Key::new("method", Takes::Choice(Method::NAMES))
-        .required("method = \"baumgarte\"")
+        .default("`\"hermite\"`")
         .means("what they compute: [theory](../theory/README.md)"),
     EXCHANGED_DEGREE,
     Key::new("loads", Takes::Choice(&texts(&LOADS)))
@@ -106,6 +106,9 @@ const OTHERWISE: [(&str, Otherwise); 3] = [
 /// Corrections that have not converged after so many passes do not converge.
 const MOST_PASSES: usize = 1000;
 
+/// The method of a scene that names none.
+const BY_DEFAULT: &str = "hermite";
+
 const PASSES_BY_DEFAULT: u32 = 10;
 const TOLERANCE_BY_DEFAULT: f64 = 1e-9;
 
@@ -174,7 +177,10 @@ pub(super) fn read(
         Method::ALL.iter().map(|own| (own.name, own)).collect();
     let [method, exchanged_degree, loads, _, increment] = section.fields(&COMMON, problems);
     let [jacobian, iterations, ..] = section.fields(&CORRECTED, problems);
-    let kind = method.and_then(|field| field.choice(&choices, problems));
+    let kind = match method {
+        Some(field) => field.choice(&choices, problems),
+        None => Method::ALL.iter().find(|own| own.name == BY_DEFAULT),
+    };
     check_keys(section, kind, problems);
     let steps = step_control::read(section, duration, problems);
     let increment = match increment {

@@ -160,7 +160,7 @@ fn assemble(
     let of_scene = coupling.method;
     let stable = Box::new(move |length| scene::highest_stable_degree(of_scene, length));
     let first_degree = method.corrected().and_then(|own| own.first_degree());
-    let corrects = end.is_some();
+    let corrects = end.is_some() && layout.variables() > 0;
     Ok(Run {
         degrees: AutomaticDegrees::new(stable, &layout, highest, first_degree, first, given),
         corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),

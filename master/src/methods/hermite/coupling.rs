@@ -399,8 +399,11 @@ impl Corrected for HermiteCoupling {
     ) -> (f64, usize) {
         let unknowns = unknowns.of(variable);
         let change = change[unknowns.start];
-        // The solutions with fewer degrees tell the errors of curves with moments.
-        if unknowns.len() > 2 || exchanged.rates.is_none() && unknowns.len() > 1 {
+        // The solutions with fewer degrees tell the errors of curves with moments, but for what curves make of a signal inside the step.
+        if exchanged.rates.is_none() && unknowns.len() > 1 {
+            return (self.curves.signal_effect(variable), 2 * self.degree + 1);
+        }
+        if unknowns.len() > 2 {
             return (0.0, 2 * self.degree + 2);
         }
         if exchanged.rates.is_some() {

@@ -221,6 +221,22 @@ impl HermiteCurves {
         self.history.error_shares(variable, step)
     }
 
+    /// What the curve of a connected signal misses as far as the motion that it drives feels it: with coefficients that fall by a ratio `r` the
+    /// curve of degree p misses `r` times its top coefficient, whose mean is a sixth, and p - 1 of its moments vanish.
+    pub fn signal_effect(&self, variable: usize) -> f64 {
+        let values = self.values(variable);
+        let coefficient = |degree: usize| match degree {
+            0 => 0.0,
+            1 => (values[0] - self.start(variable)).abs(),
+            _ => values.get(degree - 1).map_or(0.0, |value| value.abs()),
+        };
+        let degree = self.degree;
+        let top = coefficient(degree);
+        let before = coefficient(degree - 1).max(coefficient(degree.saturating_sub(2)));
+        let ratio = if top < before { top / before } else { 1.0 };
+        top / 6.0 * ratio.powi(degree as i32)
+    }
+
     /// Rate and second derivative of a variable of motion at the present macro point.
     pub fn set_rates(&mut self, variable: usize, speed: f64, acceleration: f64) {
         self.starts[variable][1] = speed;

@@ -40,6 +40,20 @@ pub enum Outlook {
     Anew(Anew),
 }
 
+impl Outlook {
+    /// The error with the present degree, with one less and with one more, as far as they are known.
+    pub fn errors(&self) -> [Option<f64>; 3] {
+        let prospects = match self {
+            Self::Past(known) => [known.present, known.lower, known.higher],
+            Self::Anew(Anew { nested, .. }) => {
+                let degree = nested.degree;
+                [degree, degree - 1, degree + 1].map(|degree| Some(nested.prospect(degree)))
+            }
+        };
+        prospects.map(|known| known.map(|known| known.scaled))
+    }
+}
+
 /// From what a degree is chosen where polynomials are found anew.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Anew {

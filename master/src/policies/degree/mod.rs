@@ -167,7 +167,17 @@ impl AutomaticDegrees {
             if next == group.degree() {
                 continue;
             }
-            tracing::debug!(of = ?group.kind, from = group.degree(), to = next, highest, ?outlook, "degree changes");
+            let [error, error_lower, error_higher] = outlook.errors();
+            tracing::debug!(
+                of = ?group.kind,
+                from = group.degree(),
+                to = next,
+                highest,
+                error,
+                error_lower,
+                error_higher,
+                "degree changes"
+            );
             if is_known {
                 changed[group.kind as usize] = Some(next);
             }
