@@ -10,6 +10,9 @@ const MOST_POOR: f64 = 0.01;
 /// The largest error of one macro step that is not worth a word, as a share of the motion.
 const OF_STEP: f64 = 0.01;
 
+/// The same where the steps do not resolve a subsystem, so that no estimate can be trusted.
+const OF_UNRESOLVED_STEP: f64 = 3e-4;
+
 /// The same of all steps together.
 const OF_RUN: f64 = 0.1;
 
@@ -31,6 +34,13 @@ pub enum Warning {
         of: String,
         /// From this time on in s.
         t: f64,
+    },
+    /// Equal steps do not resolve what a subsystem does, and are estimated to be off already.
+    Unresolved {
+        /// By this share of the motion.
+        error: f64,
+        /// The subsystem.
+        subsystem: String,
     },
     /// All macro steps together are estimated to be off by much.
     ErrorOfRun {
@@ -57,6 +67,14 @@ impl Statistics {
                 t: errors.t,
             });
         }
+        let mut all = self.subsystems.iter();
+        let unresolved = all.find(|own| self.steps.is_none() && own.unresolved.is_some());
+        if let Some(own) = unresolved.filter(|_| errors.largest > OF_UNRESOLVED_STEP) {
+            warnings.push(Warning::Unresolved {
+                error: errors.largest,
+                subsystem: own.subsystem.clone(),
+            });
+        }
         if errors.accumulated > OF_RUN {
             warnings.push(Warning::ErrorOfRun {
                 error: errors.accumulated,
@@ -78,6 +96,12 @@ impl fmt::Display for Warning {
                 f,
                 "the macro step at t = {t:.6} s is estimated to be off by {:.2e} % of the motion ({of}); choose a shorter \
                  coupling.macro_step or a coupling.tolerance",
+                100.0 * error
+            ),
+            Self::Unresolved { error, subsystem } => write!(
+                f,
+                "the macro steps do not resolve the springs and dampers of {subsystem} (aliasing), and a step is estimated to be off \
+                 by {:.2e} % of the motion or more; choose a shorter coupling.macro_step or a coupling.tolerance",
                 100.0 * error
             ),
             Self::ErrorOfRun { error } => write!(
