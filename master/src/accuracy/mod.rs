@@ -18,5 +18,5 @@ pub use attempts::{Attempts, CHORD_ORDER};
 pub use change::{Change, MOST_LEFT};
 pub use estimate::{Estimate, Suspect};
 pub use position_error::{Correction, Difference, PositionErrors};
-pub use step_errors::{BEARABLE, StepErrors};
+pub use step_errors::{RunErrors, StepErrors};
 pub use tolerance::Tolerance;

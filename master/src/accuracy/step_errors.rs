@@ -6,12 +6,11 @@ use super::estimate::{Estimate, Suspect};
 use super::tolerance::{self, Tolerance};
 use crate::joint::Level;
 use crate::layout::{Layout, What};
-use crate::results::RunErrors;
 use crate::system::Outputs;
 use crate::time::MacroStep;
 
 /// The share of the motion by which a step may be off where nothing says what it is for.
-pub const BEARABLE: f64 = 1e-2;
+const BEARABLE: f64 = 1e-2;
 
 /// Displacements below this share of what the multipliers move within a step are rest.
 const REST: f64 = 1e-6;
@@ -21,6 +20,19 @@ const REST: f64 = 1e-6;
 pub struct StepErrors {
     bearable: Tolerance,
     state: State,
+}
+
+/// Errors that the steps of a run are estimated to make, as shares of the motion: of the largest displacement from the start.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RunErrors {
+    /// The largest one of a step.
+    pub largest: f64,
+    /// What has it.
+    pub of: String,
+    /// Start of that step in s.
+    pub t: f64,
+    /// Those of all steps together: a guide, as errors may cancel or grow.
+    pub accumulated: f64,
 }
 
 /// What is remembered of the steps so far.

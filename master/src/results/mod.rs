@@ -12,6 +12,7 @@ mod step_degrees;
 mod verdict;
 mod warning;
 
+pub use crate::accuracy::RunErrors;
 pub use contacts::RecordedContact;
 pub(crate) use contacts::outputs as contact_outputs;
 pub use free_velocity::FreeVelocity;

@@ -7,6 +7,7 @@ use linchpin_proto::v1;
 use serde::{Deserialize, Serialize};
 
 use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
+use crate::accuracy::RunErrors;
 use crate::layout::Layout;
 use crate::time::MacroStep;
 
@@ -152,19 +153,6 @@ impl DegreeStatistics {
             }
         }
     }
-}
-
-/// Errors that the steps of a run are estimated to make, as shares of the motion: of the largest displacement from the start.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct RunErrors {
-    /// The largest one of a step.
-    pub largest: f64,
-    /// What has it.
-    pub of: String,
-    /// Start of that step in s.
-    pub t: f64,
-    /// Those of all steps together: a guide, as errors may cancel or grow.
-    pub accumulated: f64,
 }
 
 /// Number of macro steps by verdict.

@@ -116,7 +116,8 @@ impl fmt::Display for Warning {
 
 #[cfg(test)]
 mod tests {
-    use super::super::statistics::{RunErrors, Verdicts};
+    use super::super::RunErrors;
+    use super::super::statistics::Verdicts;
     use super::*;
 
     fn statistics(poor: u64, errors: Option<[f64; 2]>) -> Statistics {
