@@ -22,8 +22,8 @@ pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use outcome::{Outcome, Passes};
 pub use row::{Drawn, OfStep, Row};
 pub use statistics::{
-    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, RunErrors,
-    Statistics, StepStatistics, SubsystemStatistics,
+    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics,
+    StepStatistics, SubsystemStatistics,
 };
 pub use step_degrees::StepDegrees;
 pub use verdict::{Defect, Verdict};
