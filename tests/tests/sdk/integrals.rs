@@ -55,6 +55,16 @@ fn advancing(number: u32, end: f64) -> v1::ExchangeRequest {
     }
 }
 
+/// How far integrals may be off, of the size of the output: the formula with five points is exact to 1e-12 or so, solvers to their tolerance
+/// or to what their fixed steps leave.
+fn allowed(name: &str) -> f64 {
+    match name {
+        "exact oscillator" => 1e-11,
+        "oscillator with fixed steps" => 1e-7,
+        _ => 1e-8,
+    }
+}
+
 /// Gauss's formula with five points on [0, 1].
 fn gauss() -> [[f64; 2]; 5] {
     let root = |sign: f64| (5.0 + sign * 2.0 * (10.0f64 / 7.0).sqrt()).sqrt() / 3.0;
@@ -95,11 +105,7 @@ fn they_are_those_of_the_outputs(serve: Serve) {
             let answer = driver.turn(looking(0, 4.0)).unwrap();
             let found = answer.predicted.unwrap().values;
             assert_eq!(found.len(), outputs + expected.len(), "{name}");
-            let allowed = if name.starts_with("exact") {
-                1e-13
-            } else {
-                1e-8
-            };
+            let allowed = allowed(name);
             for place in 0..expected.len() {
                 let size = told[outputs + place % outputs].abs() + 1e-3;
                 let (found, expected) = (found[outputs + place], expected[place]);
@@ -128,11 +134,7 @@ fn a_step_that_is_cut_has_the_integrals_of_the_whole(serve: Serve) {
             });
             let outputs = instance.coupling_outputs.len();
             let integrals = outputs..outputs * (1 + WEIGHTS as usize);
-            let allowed = if name.starts_with("exact") {
-                1e-13
-            } else {
-                1e-8
-            };
+            let allowed = allowed(name);
             for (whole, cut) in whole.iter().zip(&cut) {
                 assert_eq!(cut.len(), whole.len() + 2 * outputs, "{name}");
                 for place in integrals.clone() {
