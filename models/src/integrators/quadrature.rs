@@ -5,6 +5,12 @@
 pub trait Quadrature {
     /// One stage: `y` at `tau` (s after the start of the interval) with its weight (s).
     fn add(&mut self, tau: f64, y: &[f64], weight: f64);
+
+    /// The longest step (s) in an interval of this length that it bears: an estimate of the error of `y` says nothing of the integrals of `y`
+    /// times something that varies over the interval.
+    fn longest_step(&self, length: f64) -> f64 {
+        length
+    }
 }
 
 /// Nodes and weights of Gauss's formula with that many points on [0, 1], for integrals along a motion that needs no integration.

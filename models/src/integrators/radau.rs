@@ -264,7 +264,13 @@ impl Radau {
     ) -> Result<(f64, f64), Cause> {
         let mut careful = self.record.steps.is_empty();
         loop {
-            let step = self.control.fitting(length - tau);
+            let rest = length - tau;
+            let longest = beside.longest_step(length);
+            // What is left but for rounding is one step.
+            let step = match rest <= longest * (1.0 + SHORTEST) {
+                true => self.control.fitting(rest),
+                false => self.control.fitting(rest).min(longest),
+            };
             let rejected = match self.attempt(ode, tau, step, y, careful) {
                 Ok(rate) => {
                     self.stages.accept(tau, step, y, beside);

@@ -14,6 +14,9 @@ pub struct Integrals {
     values: Vec<f64>,
 }
 
+/// With weights of degree 3 and less, and as many internal steps as there are instants by default, integrals are as good as the motion.
+const LEAST_PARTS: f64 = 4.0;
+
 impl Integrals {
     /// Chooses the outputs and how many weights; without weights nothing is integrated.
     pub fn choose(&mut self, outputs: &[usize], weights: usize) {
@@ -31,6 +34,15 @@ impl Integrals {
     /// Numbers of the outputs.
     pub fn outputs(&self) -> &[usize] {
         &self.outputs
+    }
+
+    /// The longest internal step in a step of this length: weights vary over it.
+    pub fn longest_step(&self, length: f64) -> f64 {
+        if self.is_idle() {
+            length
+        } else {
+            length / LEAST_PARTS
+        }
     }
 
     /// Number of weights.
@@ -98,5 +110,9 @@ impl<E: EquationOfMotion> Quadrature for Integrating<'_, E> {
                 // Which outputs there are was looked up before.
                 equation.output(&state, &inputs, output).unwrap_or(f64::NAN)
             });
+    }
+
+    fn longest_step(&self, length: f64) -> f64 {
+        self.integrals.longest_step(length)
     }
 }

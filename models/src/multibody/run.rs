@@ -207,6 +207,10 @@ impl Quadrature for Integrating<'_> {
                 self.outputs[number].value(system, &kinematics, dynamics.as_ref())
             });
     }
+
+    fn longest_step(&self, length: f64) -> f64 {
+        self.integrals.longest_step(length)
+    }
 }
 
 impl Subsystem for Run {
