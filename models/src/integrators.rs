@@ -5,11 +5,13 @@
 //!
 //! Times are relative to the start of the interval, so that nothing is lost late in a long run.
 
+mod quadrature;
 pub mod radau;
 pub mod rk4;
 
 use nalgebra::DMatrix;
 
+pub use quadrature::{Quadrature, gauss};
 pub use rk4::Rk4;
 
 /// An ordinary differential equation `y' = f(tau, y)`; `tau` (s) runs from the start of the interval.

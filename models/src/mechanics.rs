@@ -11,6 +11,7 @@ pub mod adaptive;
 pub mod describe;
 pub mod equation;
 pub mod fixed;
+pub mod integrals;
 pub mod joint_loads;
 pub mod markers;
 pub mod planar;

@@ -4,6 +4,7 @@
 //! `f` is an applied force; `x_p`, `v_p` are the motion of a partner behind a spring `k_p` and a damper `d_p`, for
 //! force/displacement coupling. From a time on, a constant load may act on the mass as well.
 
+mod averages;
 mod description;
 mod equation;
 mod exact;

@@ -1,6 +1,7 @@
 //! What the parts of an exchange must keep to, whoever carries them out.
 
 use crate::v1::{Advance, Failure, Predict};
+use crate::weights::MAX_WEIGHTS;
 
 /// The samples of an advance are ascending instants inside its step.
 ///
@@ -20,6 +21,22 @@ pub fn check_samples(advance: &Advance) -> Result<(), Failure> {
 /// [`Failure`] of severity misuse that names the first instant which is not.
 pub fn check_instants(instants: &[f64], step: f64) -> Result<(), Failure> {
     check_inside(["instants", "instant"], instants, step)
+}
+
+/// No more integrals of each output are asked for than there are weights.
+///
+/// # Errors
+/// [`Failure`] of severity misuse that names both numbers.
+pub fn check_integrals(integrals: u32) -> Result<usize, Failure> {
+    match usize::try_from(integrals) {
+        Ok(number) if number <= MAX_WEIGHTS => Ok(number),
+        _ => Err(Failure::misuse(
+            "integrals",
+            format!(
+                "{integrals} integrals of each output are asked for; there are weights for {MAX_WEIGHTS} at most"
+            ),
+        )),
+    }
 }
 
 fn check_inside([field, what]: [&str; 2], offsets: &[f64], step: f64) -> Result<(), Failure> {

@@ -16,6 +16,7 @@ pub mod joint_load;
 pub mod polynomial;
 pub mod status;
 pub mod version;
+pub mod weights;
 
 /// Generated messages, client and server of the package `linchpin.v1`.
 #[allow(

@@ -42,7 +42,7 @@ const RADAU5: &str = r#"{ kind = "radau5" }"#;
 const RK4: &str = r#"{ kind = "rk4", step = 1e-4 }"#;
 
 /// Coupling settings, and the solver of all masses.
-const CASES: [(&str, &str); 24] = [
+const CASES: [(&str, &str); 27] = [
     ("method=baumgarte index=1 degree=0", EXACT),
     ("method=baumgarte index=1 degree=1", EXACT),
     ("method=baumgarte index=1 degree=2", EXACT),
@@ -61,6 +61,9 @@ const CASES: [(&str, &str); 24] = [
         EXACT,
     ),
     ("method=hermite", EXACT),
+    ("method=hermite degree=4 moments=integrals", EXACT),
+    ("method=hermite degree=3 moments=integrals", RADAU5),
+    ("method=hermite degree=3 moments=integrals", RK4),
     ("method=baumgarte index=1 degree=0", RADAU5),
     ("method=baumgarte index=1 degree=3", RADAU5),
     ("method=baumgarte index=2 degree=0", RADAU5),

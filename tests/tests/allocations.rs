@@ -202,6 +202,7 @@ fn joined(model: &str, signals: [&[u32]; 3], axis: [f64; 3]) -> v1::InitializeRe
             options: [("step".into(), number(1e-3))].into(),
         }),
         coupling_outputs: vec!["end_x".into(), "end_ax".into()],
+        integrated_outputs: vec!["end_x".into(), "end_ax".into()],
         joint_inputs: (0..11).map(|input| input.to_string()).collect(),
         joint_loads: vec![load],
         ..v1::InitializeRequest::default()
@@ -255,10 +256,12 @@ fn joint_loads_allocate_nothing() {
                 signals: signals.clone(),
                 samples: vec![3e-3, 8e-3],
                 instants: vec![2e-3, 7e-3],
+                integrals: 3,
             }),
             predict: Some(v1::Predict {
                 step: 1e-2,
                 instants: vec![2e-3, 7e-3],
+                integrals: 3,
                 ..look.clone()
             }),
             evaluate: Some(look),
@@ -282,6 +285,7 @@ fn directional_derivatives_allocate_nothing() {
         inputs: vec!["f".into(), "partner_x".into()],
         coupling_outputs: vec!["x".into(), "a".into()],
         interior_outputs: vec!["x".into()],
+        integrated_outputs: vec!["x".into(), "v".into()],
         ..v1::InitializeRequest::default()
     };
     host.initialize(&instance).unwrap();
@@ -304,11 +308,13 @@ fn directional_derivatives_allocate_nothing() {
             step: 1e-2,
             signals,
             instants: vec![2e-3, 7e-3],
+            integrals: 3,
             ..v1::Advance::default()
         }),
         predict: Some(v1::Predict {
             step: 1e-2,
             instants: vec![2e-3, 7e-3],
+            integrals: 3,
             ..look.clone()
         }),
         evaluate: Some(look),

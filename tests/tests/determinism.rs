@@ -12,13 +12,15 @@ use linchpin_tests::runs::run;
 use linchpin_tests::scenes::{RADAU5, with_settings};
 
 /// Every method, with every degree at which it is stable.
-const COUPLINGS: [&str; 28] = [
+const COUPLINGS: [&str; 30] = [
     "method=hermite variant=apv",
     "method=hermite variant=c0pv",
     "method=hermite variant=c0pv jacobian=every-step",
     "method=hermite tolerance=1e-7",
     "method=hermite increment=derivatives",
     "method=hermite degree=3",
+    "method=hermite degree=4 moments=integrals",
+    "method=hermite degree=4 moments=integrals increment=derivatives",
     "method=hermite degree=automatic tolerance=1e-9",
     "method=baumgarte index=1 beta=2H gamma=H^2 degree=0",
     "method=baumgarte index=1 beta=2H gamma=H^2 degree=1",

@@ -88,7 +88,20 @@ fn assert_resumes(name: &str, scene: &Scene) {
 }
 
 /// Every method, fixed and variable steps, degrees and columns.
-const COUPLINGS: [&[&str]; 15] = [
+const COUPLINGS: [&[&str]; 17] = [
+    &[
+        "coupling.method=hermite",
+        "coupling.degree=4",
+        "coupling.moments=integrals",
+        "coupling.macro_step=1.1e-2",
+    ],
+    &[
+        "coupling.method=hermite",
+        "coupling.degree=automatic",
+        "coupling.moments=integrals",
+        "coupling.tolerance=1e-9",
+        "coupling.greatest_step=8e-3",
+    ],
     &[
         "coupling.method=hermite",
         "coupling.degree=4",

@@ -299,6 +299,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         joint_loads: own.joint_loads,
         directional_derivatives: own.directional_derivatives,
         interior_outputs: true,
+        output_integrals: own.output_integrals,
     });
     model
 }

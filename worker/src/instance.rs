@@ -8,7 +8,7 @@ mod snapshots;
 use linchpin_proto::v1::{self, Failure};
 
 use crate::Subsystem;
-use motion::{Base, Horizon, Meter, Motion, Sequence, interval};
+use motion::{Base, Horizon, Inside, Meter, Motion, Sequence, interval};
 use snapshots::Snapshots;
 
 pub(crate) use signals::{Signals, find};
@@ -120,8 +120,12 @@ impl Instance {
         let mut meter = Meter::start(&self.motion);
         let interval = interval(request.t, request.step)?;
         let mut outputs = v1::Outputs::default();
+        let inside = Inside {
+            instants: &request.instants,
+            integrals: request.integrals,
+        };
         self.motion.advance(
-            (interval, &request.instants),
+            (interval, inside),
             &request.signals,
             request.outputs(),
             &mut outputs.values,
@@ -157,6 +161,7 @@ impl Instance {
         let interval = interval(request.t, request.step)?;
         let (mut outputs, mut derivatives) = (Vec::new(), Vec::new());
         self.motion.set_signals(&request.signals)?;
+        self.motion.integrate_outputs(request.integrals)?;
         match &request.instants[..] {
             [] => self.motion.look_ahead_perturbed(
                 Base::Committed,

@@ -47,6 +47,8 @@ pub enum StepFailure {
     },
 }
 
+const INTEGRALS: &str = "integrals of outputs";
+
 /// A solver run: one subsystem with its state.
 ///
 /// All inputs are given for every call, in the order of the model's description; an input that the scene does not
@@ -98,6 +100,26 @@ pub trait Subsystem: Send {
         Err(StepFailure::NotOffered {
             what: "directional derivatives",
         })
+    }
+
+    /// Lets every step, perturbed step and derivative over a step that follows integrate the outputs numbered `outputs` as well, with
+    /// the first `weights` weights `L_0, L_1, ..` of [`weights`](linchpin_proto::weights); with none nothing is integrated any more.
+    /// [`Subsystem::integrals`] then tells the integrals. They begin at 0 with every step and belong to no state.
+    ///
+    /// Where they are given, the model's capabilities say `output_integrals`; the default refuses.
+    fn integrate_outputs(
+        &mut self,
+        _outputs: &[usize],
+        _weights: usize,
+    ) -> Result<(), StepFailure> {
+        Err(StepFailure::NotOffered { what: INTEGRALS })
+    }
+
+    /// Writes the integrals over the last [`Subsystem::step`] or [`Subsystem::perturbed_step`] to `values`: `integral of y L_0 ds` of all
+    /// outputs that [`Subsystem::integrate_outputs`] named, over the share `s` of the step, then those with `L_1`, and so on. After
+    /// [`Subsystem::derivative`] they are the derivatives of these integrals.
+    fn integrals(&self, _values: &mut [f64]) -> Result<(), StepFailure> {
+        Err(StepFailure::NotOffered { what: INTEGRALS })
     }
 
     /// Internal solver steps since the start, for the statistics.

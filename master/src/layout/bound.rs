@@ -143,9 +143,14 @@ impl Layout {
         if variable < self.rows.len() {
             return self.column_name(variable, "lambda");
         }
-        let mut exchanged = self.exchanged.iter();
-        let own = exchanged.find(|one| (one.first..one.first + one.size()).contains(&variable));
+        let own = self.exchanged_of(variable);
         own.map_or_else(String::new, |exchanged| exchanged.name.clone())
+    }
+
+    /// What an exchanged variable belongs to.
+    pub(super) fn exchanged_of(&self, variable: usize) -> Option<&Exchanged> {
+        let mut exchanged = self.exchanged.iter();
+        exchanged.find(|one| (one.first..one.first + one.size()).contains(&variable))
     }
 
     /// Values of the driven inputs of one subsystem at values `w` of all variables.

@@ -77,6 +77,12 @@ impl BoundEnd {
         places.map_or(&[], |places| &places.position)
     }
 
+    /// Places of the angle or quaternion, or of its rates.
+    pub fn orientation(&self, level: Level) -> &[usize] {
+        let places = self.levels.get(level as usize);
+        places.map_or(&[], |places| &places.rotation)
+    }
+
     /// The motion that the outputs of the subsystem tell.
     pub fn motion(&self, outputs: &[f64]) -> MarkerMotion {
         self.motion_up_to(Level::Acceleration, outputs)

@@ -24,5 +24,5 @@ pub use bound::{BoundJoint, Frame, Layout, Row, column_name};
 pub use coupled::{Coupled, Lack, LoadForm, MarkedConnection, MarkedJoint, MarkerLacks};
 pub use exchanged::{Exchanged, What};
 pub use input::{DrivenInput, Over, Source};
-pub use inside::Inside;
+pub use inside::{Inside, MomentsFrom};
 pub use marker::BoundEnd;

@@ -1,6 +1,7 @@
 //! A coupling method as a scene has it: its parameters, and what follows from them before any worker is known.
 
 use nalgebra::UnitQuaternion;
+use serde::Serialize;
 
 use super::method::Built;
 use crate::joint::Level;
@@ -97,14 +98,9 @@ pub trait Parameters {
         None
     }
 
-    /// Instants inside a step, as shares of it, at which it looks at positions; `has_signals` if signals are connected.
-    fn instants(&self, _has_signals: bool) -> Vec<f64> {
-        Vec::new()
-    }
-
-    /// Whether it cannot do without these instants.
-    fn needs_instants(&self) -> bool {
-        false
+    /// What it wants to know of the inside of a step, if anything; `has_signals` if signals are connected.
+    fn inside(&self, _has_signals: bool) -> Option<WantedInside> {
+        None
     }
 
     /// Whether a multiplier of degree 0 at `T_{N+1}` is its mean over the step before.
@@ -123,6 +119,31 @@ pub trait Parameters {
     fn instability(&self, _degree: Option<usize>, _macro_step: f64) -> Option<Instability> {
         None
     }
+}
+
+/// What moments over a step are to be made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Served {
+    /// Integrals of outputs where conditions are linear in outputs and the workers offer them, otherwise outputs at instants.
+    Automatic,
+    /// Integrals wherever conditions are linear in outputs.
+    Integrals,
+    /// Outputs at instants.
+    Instants,
+}
+
+/// What a method wants to know of the inside of a step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WantedInside {
+    /// Instants, as shares of the step, at which it looks at positions.
+    pub shares: Vec<f64>,
+    /// Number of integrals of each output in place of them.
+    pub weights: usize,
+    /// Which of the two.
+    pub moments: Served,
+    /// Whether it cannot do without.
+    pub is_needed: bool,
 }
 
 /// Degrees of curves that a method has of its own.

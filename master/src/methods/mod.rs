@@ -14,7 +14,7 @@ mod saved;
 
 pub use condition::SingularRow;
 pub(crate) use definition::{DEGREE, EXCHANGED_DEGREE};
-pub use definition::{Given, Instability, Lacking, OwnCurves, Parameters};
+pub use definition::{Given, Instability, Lacking, OwnCurves, Parameters, Served, WantedInside};
 pub use method::{Built, Corrected, CouplingMethod, LoadErrors, Order, Reached};
 pub(crate) use registry::Entry;
 pub use saved::{Saved, Unreadable};

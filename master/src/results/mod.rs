@@ -5,6 +5,7 @@ mod free_velocity;
 mod guard;
 mod integrations;
 mod mechanism;
+mod moments;
 mod outcome;
 mod row;
 mod statistics;
@@ -19,6 +20,7 @@ pub use free_velocity::FreeVelocity;
 pub use guard::Guard;
 pub use integrations::{Cause, Integrations};
 pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
+pub use moments::MomentsOf;
 pub use outcome::{Outcome, Passes};
 pub use row::{Drawn, OfStep, Row};
 pub use statistics::{

@@ -6,7 +6,7 @@ use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1;
 use serde::{Deserialize, Serialize};
 
-use super::{FreeVelocity, Integrations, Outcome, Passes, Row, StepDegrees, Verdict};
+use super::{FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Row, StepDegrees, Verdict};
 use crate::accuracy::RunErrors;
 use crate::layout::Layout;
 use crate::time::MacroStep;
@@ -42,6 +42,8 @@ pub struct Statistics {
     pub estimated_errors: Option<RunErrors>,
     /// Largest residuals of every joint.
     pub joints: Vec<JointResiduals>,
+    /// What the moments of conditions over a step are made of; absent where there are none.
+    pub moments: Option<MomentsOf>,
     /// Initial velocities that were chosen so that they meet the joints.
     pub free_velocities: Vec<FreeVelocity>,
     /// The share of every subsystem.
@@ -247,7 +249,10 @@ impl From<v1::Contacts> for ContactStatistics {
 impl Statistics {
     /// Nothing done yet.
     pub(crate) fn new(layout: &Layout) -> Self {
-        let mut statistics = Self::default();
+        let mut statistics = Self {
+            moments: MomentsOf::of(layout),
+            ..Self::default()
+        };
         for row in &layout.rows {
             let joint = &layout.joints[row.joint];
             let levels = layout.level.up_to().iter();

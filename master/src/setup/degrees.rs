@@ -174,7 +174,7 @@ fn sent(coupling: &scene::Coupling, layout: &Layout, input: &DrivenInput) -> Vec
         .any(|(variable, _)| layout.is_signal(*variable));
     let [of_multipliers, of_exchanged] = groups;
     vec![match own_curves {
-        Some(own) if is_signal && own.signals && !layout.inside.shares.is_empty() => {
+        Some(own) if is_signal && own.signals && layout.inside.is_told() => {
             of_own(own.multipliers, own.key)
         }
         Some(_) if is_signal => of_exchanged,

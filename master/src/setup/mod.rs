@@ -5,6 +5,7 @@ mod degrees;
 mod discover;
 mod geometry;
 mod initial;
+mod inside;
 mod options;
 mod panels;
 mod refusal;

@@ -10,7 +10,7 @@ use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
-use super::{panels, velocities};
+use super::{inside, panels, velocities};
 use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
@@ -45,7 +45,7 @@ impl CoSimulation {
             connections: &connections,
         };
         let mut layout = layout_of(scene, &coupled)?;
-        look_inside(scene, &models, &mut layout)?;
+        inside::look(scene, &models, &mut layout)?;
         let highest = check_degrees(scene, &models, &layout)?;
         refuse_mixed_degrees(scene, &layout)?;
         let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
@@ -265,34 +265,6 @@ fn initial_state(
     }
 }
 
-/// Lets the workers tell positions inside a step, if the method looks at them and all workers that are read can.
-fn look_inside(scene: &Scene, models: &[v1::Model], layout: &mut Layout) -> Result<(), RunError> {
-    let method = scene.coupling.method.parameters();
-    let instants = method.instants(layout.has_signals());
-    if instants.is_empty() {
-        return Ok(());
-    }
-    let cannot = |subsystem: &usize| {
-        let capabilities = models[*subsystem].capabilities.unwrap_or_default();
-        !layout.outputs[*subsystem].is_empty() && !capabilities.interior_outputs
-    };
-    match (0..models.len()).find(cannot) {
-        None => layout.read_inside(&instants),
-        Some(subsystem) if method.needs_instants() => {
-            let message = format!(
-                "the model \"{}\" of subsystem \"{}\" tells no outputs inside a step",
-                models[subsystem].name, scene.subsystems[subsystem].name
-            );
-            let help = "choose coupling.degree = 2";
-            return Err(scene
-                .error("coupling.degree", message, Some(help.into()))
-                .into());
-        }
-        Some(_) => {}
-    }
-    Ok(())
-}
-
 /// A signal and the load of a joint at one input are one polynomial, so they must have one degree.
 fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> {
     let (degree, exchanged) = (scene.coupling.degree, scene.coupling.exchanged_degree);
@@ -353,6 +325,7 @@ fn initialize_request(
         coupling_outputs: layout.outputs[number].clone(),
         recorded_outputs: recorded.to_vec(),
         interior_outputs: layout.interior_outputs(number),
+        integrated_outputs: layout.integrated_outputs(number),
         ..v1::InitializeRequest::default()
     }
 }

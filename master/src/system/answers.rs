@@ -7,7 +7,7 @@ pub trait Outputs {
     /// Those of one subsystem.
     fn of(&self, subsystem: usize) -> &[f64];
 
-    /// What it told at the instants inside the step that led there, instant by instant.
+    /// What it told of the inside of the step that led there, look by look.
     fn inside(&self, _subsystem: usize) -> &[f64] {
         &[]
     }

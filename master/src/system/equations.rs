@@ -36,23 +36,24 @@ pub struct System {
 }
 
 /// The moments `integral of g(s) p_i(s) ds` of every condition on position level, `i = 0, 1, ..`, and their derivatives with respect to
-/// the unknowns, as sums over the instants at which the workers tell their positions.
+/// the unknowns, as sums over the looks at the inside of the step: integrals of outputs or outputs at instants.
 pub struct Moments {
     pub(super) weights: Weights,
-    /// The conditions at one instant.
-    pub(super) at_instant: System,
-    /// For each instant the parts of all unknowns in the conditions of exchanged variables.
+    /// The conditions at one look. Those that are linear in outputs are integrated by the integrals of the outputs.
+    pub(super) at_look: System,
+    /// For each look the parts of all unknowns in the conditions of exchanged variables.
     pub(super) units: Vec<Vec<f64>>,
     /// Whether a condition is that of a connected signal.
     pub(super) is_signal: Vec<bool>,
-    /// The coupling outputs at one instant, subsystem by subsystem.
+    /// The coupling outputs at one look, subsystem by subsystem.
     pub(super) outputs: Vec<Vec<f64>>,
     pub(super) columns: Vec<Column>,
     pub(super) residuals: Vec<Vec<f64>>,
     pub(super) jacobians: Vec<Vec<f64>>,
 }
 
-/// How the values at the instants make a moment: for each moment one weight for each instant.
+/// How the values at the looks make a moment: for each moment one weight for each look. Only looks of the kind that a condition is served by
+/// count.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Weights {
     /// Of conditions of joints and of exchanged motion.

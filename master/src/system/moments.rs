@@ -6,7 +6,7 @@ use super::equations::{Moments, System, Weights};
 use super::point::Point;
 use super::unknowns::Unknowns;
 use crate::joint::Level;
-use crate::layout::Layout;
+use crate::layout::{Layout, MomentsFrom};
 
 impl System {
     /// Conditions and Jacobians inside the step, for systems that have them. `columns` belong to the inputs of `layout`; without them the
@@ -25,7 +25,7 @@ impl System {
 }
 
 impl Moments {
-    /// For these unknowns; `shapes` are the values of the shapes of all unknowns at the instants, instant by instant.
+    /// For these unknowns; `shapes` are the values of the shapes of all unknowns at the looks, look by look.
     pub fn new(
         layout: &Layout,
         unknowns: Unknowns,
@@ -34,12 +34,12 @@ impl Moments {
     ) -> Self {
         let columns = layout.inputs.len().checked_sub(1);
         let columns = columns.map_or(0, |last| unknowns.columns(last).end);
-        let at_instant = System::at_positions(layout, unknowns);
-        let entries = at_instant.pattern().entries();
+        let at_look = System::at_positions(layout, unknowns);
+        let entries = at_look.pattern().entries();
         let moments = weights.of_motion.len().max(weights.of_signals.len());
         Self {
             weights,
-            at_instant,
+            at_look,
             units: shapes,
             is_signal: (0..layout.variables())
                 .map(|one| layout.is_signal(one))
@@ -82,40 +82,49 @@ impl Moments {
                 .iter_mut()
                 .for_each(|jacobian| jacobian.fill(0.0));
         }
-        let is_silent = |subsystem: usize| {
-            !layout.inside.places[subsystem].is_empty() && told.inside(subsystem).is_empty()
-        };
+        let inside = &layout.inside;
+        let is_silent =
+            |subsystem: usize| inside.values(subsystem) > 0 && told.inside(subsystem).is_empty();
         if (0..layout.outputs.len()).any(is_silent) {
             return;
         }
         if columns.is_some() {
-            self.at_instant.differentiate_inputs(layout, point);
+            self.at_look.differentiate_inputs(layout, point);
         }
-        for (instant, w) in point.inside.iter().enumerate() {
+        for (look, w) in point.inside.iter().enumerate() {
             for (subsystem, outputs) in self.outputs.iter_mut().enumerate() {
-                let told = told.inside(subsystem);
-                layout.inside.spread(subsystem, instant, told, outputs);
+                if inside.kind(look) == MomentsFrom::Integrals {
+                    // What is not integrated has to be something that there is: a quaternion, where conditions that are not served stand
+                    // beside others.
+                    let at_end = &told.of(subsystem)[..outputs.len()];
+                    outputs.copy_from_slice(at_end);
+                }
+                inside.spread(subsystem, look, told.inside(subsystem), outputs);
             }
             let point = Point { w, ..point };
             if let Some(columns) = columns {
-                self.spread_columns(layout, instant, columns);
+                self.spread_columns(layout, look, columns);
             }
             let outputs = &self.outputs;
             let outputs = |subsystem: usize| &outputs[subsystem][..];
-            self.at_instant.assemble_residuals(layout, outputs, point);
+            self.at_look.assemble_residuals(layout, outputs, point);
             if columns.is_some() {
-                self.at_instant.set_units(&self.units[instant]);
-                self.at_instant
+                self.at_look.set_units(&self.units[look]);
+                self.at_look
                     .assemble_responses(layout, outputs, &self.columns, point);
             }
-            self.add(instant, columns.is_some());
+            self.add(
+                (look, inside.kind(look)),
+                &inside.moments,
+                columns.is_some(),
+            );
         }
     }
 
-    /// Writes what `columns` say about one instant to the places of the coupling outputs.
-    fn spread_columns(&mut self, layout: &Layout, instant: usize, columns: &[Column]) {
+    /// Writes what `columns` say about one look to the places of the coupling outputs.
+    fn spread_columns(&mut self, layout: &Layout, look: usize, columns: &[Column]) {
         for (subsystem, outputs) in self.outputs.iter().enumerate() {
-            let own = self.at_instant.columns_of(layout, subsystem);
+            let own = self.at_look.columns_of(layout, subsystem);
             let places = columns[own.clone()].iter().zip(&mut self.columns[own]);
             for (column, spread) in places {
                 let Some(inside) = column.derivatives.get(outputs.len()..) else {
@@ -125,15 +134,21 @@ impl Moments {
                 spread.derivatives.resize(outputs.len(), 0.0);
                 layout
                     .inside
-                    .spread(subsystem, instant, inside, &mut spread.derivatives);
+                    .spread(subsystem, look, inside, &mut spread.derivatives);
             }
         }
     }
 
-    fn add(&mut self, instant: usize, with_jacobians: bool) {
+    /// Adds the conditions at a look, of those that are served by looks of its kind.
+    fn add(
+        &mut self,
+        (look, kind): (usize, MomentsFrom),
+        served_by: &[MomentsFrom],
+        with_jacobians: bool,
+    ) {
         let Self {
             weights,
-            at_instant,
+            at_look,
             is_signal,
             ..
         } = self;
@@ -142,22 +157,27 @@ impl Moments {
                 true => &weights.of_signals,
                 false => &weights.of_motion,
             };
-            weights.get(moment).map_or(0.0, |weights| weights[instant])
+            let own = weights.get(moment).filter(|_| served_by[row] == kind);
+            own.map(|weights| weights[look])
         };
         for (moment, residuals) in self.residuals.iter_mut().enumerate() {
-            let values = at_instant.residual(Level::Position).iter().enumerate();
+            let values = at_look.residual(Level::Position).iter().enumerate();
             for (sum, (row, value)) in residuals.iter_mut().zip(values) {
-                *sum += weight(moment, row) * value;
+                if let Some(weight) = weight(moment, row) {
+                    *sum += weight * value;
+                }
             }
         }
         if !with_jacobians {
             return;
         }
-        let rows = at_instant.pattern().rows();
+        let rows = at_look.pattern().rows();
         for (moment, jacobian) in self.jacobians.iter_mut().enumerate() {
-            let values = at_instant.jacobian(Level::Position).iter().zip(rows);
+            let values = at_look.jacobian(Level::Position).iter().zip(rows);
             for (sum, (value, &row)) in jacobian.iter_mut().zip(values) {
-                *sum += weight(moment, row) * value;
+                if let Some(weight) = weight(moment, row) {
+                    *sum += weight * value;
+                }
             }
         }
     }

@@ -9,7 +9,7 @@ pub struct Point<'a> {
     pub w: &'a [f64],
     /// Coupling variables at the shares of the step at which loads are raised, without the last one, which is the end.
     pub inner: &'a [Vec<f64>],
-    /// Coupling variables at the instants inside the step.
+    /// Coupling variables at the looks at the inside of the step: integrals of their curves, and values at instants.
     pub inside: &'a [Vec<f64>],
     /// `H w'` at the end of the step, looked at for variables that have it as an unknown.
     pub rates: &'a [f64],

@@ -43,7 +43,12 @@ impl Workers {
         advance.t = step.start;
         advance.step = step.length;
         advance.signals.resize_with(inputs.len(), Default::default);
-        cut(&mut advance.instants, layout, step.length);
+        advance.instants.clear();
+        let inside = &layout.inside;
+        advance
+            .instants
+            .extend(instants(inside.instants_of(number), step.length));
+        advance.integrals = inside.integrals_of(number) as u32;
         advance.samples.clear();
         if let Some(samples) = &self.samples {
             advance.samples.extend_from_slice(samples.offsets());
@@ -81,7 +86,16 @@ impl Workers {
             request.t = look.t;
             request.step = look.length;
             request.signals.resize_with(inputs.len(), Default::default);
-            cut(&mut request.instants, layout, look.length);
+            request.instants.clear();
+            request.integrals = 0;
+            // Over no length there is nothing inside.
+            if look.length > 0.0 {
+                let inside = &layout.inside;
+                request
+                    .instants
+                    .extend(instants(inside.instants_of(number), look.length));
+                request.integrals = inside.integrals_of(number) as u32;
+            }
             let steps = perturbed.len() - directions;
             request.perturbed.resize_with(steps, Default::default);
             request.directions.resize_with(directions, Default::default);
@@ -127,10 +141,7 @@ impl Workers {
     }
 }
 
-/// The instants at which a step of this length is cut; one of no length is not.
-fn cut(instants: &mut Vec<f64>, layout: &Layout, length: f64) {
-    instants.clear();
-    if length > 0.0 {
-        instants.extend(layout.inside.shares.iter().map(|share| share * length));
-    }
+/// The instants at which a step of this length is cut.
+fn instants(shares: &[f64], length: f64) -> impl Iterator<Item = f64> {
+    shares.iter().map(move |share| share * length)
 }

@@ -62,7 +62,7 @@ fn substep_of(whole: &v1::Advance, start: f64, end: f64) -> v1::Advance {
         step: end - start,
         signals: signals.collect(),
         samples: samples.map(|sample| sample - start).collect(),
-        instants: Vec::new(),
+        ..v1::Advance::default()
     }
 }
 
@@ -75,6 +75,7 @@ mod tests {
     fn a_substep_has_the_inputs_and_the_samples_of_its_part() {
         let whole = v1::Advance {
             instants: vec![0.1],
+            integrals: 2,
             t: 3.0,
             step: 0.8,
             signals: vec![v1::Signal {

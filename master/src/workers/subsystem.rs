@@ -17,6 +17,7 @@ use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
 use crate::system::Differentiation;
 use crate::time::MacroStep;
+use answer::NOTHING;
 
 /// How far a look-ahead goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,8 +44,10 @@ pub struct Subsystem {
     pub(crate) output_names: Vec<String>,
     /// Number of coupling outputs.
     pub(crate) coupling_outputs: usize,
-    /// Names of the outputs that are told inside a step.
+    /// Names of the outputs that are told at instants inside a step.
     interior_names: Vec<String>,
+    /// Names of the outputs that are integrated over it.
+    integrated_names: Vec<String>,
     /// Outputs at the present macro point, in the order of the names.
     pub(crate) outputs: Vec<f64>,
     /// Error tolerance of the solver, if it has one.
@@ -77,6 +80,7 @@ impl Subsystem {
             output_names: Vec::new(),
             coupling_outputs: 0,
             interior_names: Vec::new(),
+            integrated_names: Vec::new(),
             outputs: Vec::new(),
             tolerance: None,
             repeats_steps: false,
@@ -150,6 +154,8 @@ impl Subsystem {
         self.coupling_outputs = request.coupling_outputs.len();
         self.output_names = [&request.coupling_outputs[..], &request.recorded_outputs].concat();
         self.interior_names.clone_from(&request.interior_outputs);
+        self.integrated_names
+            .clone_from(&request.integrated_outputs);
         let reply = self.connection.contract().initialize(&request)?;
         self.tolerance = reply.tolerance;
         Ok(())
@@ -194,7 +200,7 @@ impl Subsystem {
             .evaluate(&request)
             .map_err(|error| self.failed(error, now))?;
         let values = reply.outputs.unwrap_or_default().values;
-        self.check(("outputs", names), &values, 0, now)?;
+        self.check(("outputs", names), &values, NOTHING, now)?;
         Ok(values)
     }
 

@@ -24,7 +24,7 @@ mod tolerances;
 
 use nalgebra::DMatrix;
 
-use super::{Cause, IntegrationError, Ode};
+use super::{Cause, IntegrationError, Ode, Quadrature};
 use control::StepControl;
 use differences::Differences;
 use estimate::{Estimate, weighted_norm};
@@ -115,6 +115,20 @@ impl Radau {
         length: f64,
         y: &mut [f64],
     ) -> Result<(), IntegrationError> {
+        self.integrate_beside(ode, length, y, &mut ())
+    }
+
+    /// The same, and `beside` with it: its error is not controlled.
+    ///
+    /// # Errors
+    /// As [`Radau::integrate`].
+    pub fn integrate_beside(
+        &mut self,
+        ode: &impl Ode,
+        length: f64,
+        y: &mut [f64],
+        beside: &mut impl Quadrature,
+    ) -> Result<(), IntegrationError> {
         self.record.begin(y);
         self.matrices.clear();
         self.stages.restart();
@@ -129,7 +143,7 @@ impl Radau {
             self.prepare(ode, tau, length, y, jacobian_due)
                 .map_err(|cause| IntegrationError { tau, cause })?;
             let (step, rate) = self
-                .advance(ode, tau, length, y)
+                .advance(ode, [tau, length], y, beside)
                 .map_err(|cause| IntegrationError { tau, cause })?;
             tau = if step < length - tau {
                 tau + step
@@ -158,6 +172,19 @@ impl Radau {
     /// # Errors
     /// [`IntegrationError`] if the solution is not finite.
     pub fn replay(&mut self, ode: &impl Ode, y: &mut [f64]) -> Result<(), IntegrationError> {
+        self.replay_beside(ode, y, &mut ())
+    }
+
+    /// The same, and `beside` with it.
+    ///
+    /// # Errors
+    /// As [`Radau::replay`].
+    pub fn replay_beside(
+        &mut self,
+        ode: &impl Ode,
+        y: &mut [f64],
+        beside: &mut impl Quadrature,
+    ) -> Result<(), IntegrationError> {
         self.stages.restart();
         for &RecordedStep {
             tau,
@@ -178,7 +205,7 @@ impl Radau {
                 tau,
                 cause: Cause::Diverged { step },
             })?;
-            self.stages.accept(step, y);
+            self.stages.accept(tau, step, y, beside);
             self.steps += 1;
             if !is_finite(y) {
                 return Err(IntegrationError {
@@ -231,15 +258,24 @@ impl Radau {
     fn advance(
         &mut self,
         ode: &impl Ode,
-        tau: f64,
-        length: f64,
+        [tau, length]: [f64; 2],
         y: &mut [f64],
+        beside: &mut impl Quadrature,
     ) -> Result<(f64, f64), Cause> {
         let mut careful = self.record.steps.is_empty();
         loop {
-            let step = self.control.fitting(length - tau);
+            let rest = length - tau;
+            let longest = beside.longest_step(length);
+            // What is left but for rounding is one step.
+            let step = match rest <= longest * (1.0 + SHORTEST) {
+                true => self.control.fitting(rest),
+                false => self.control.fitting(rest).min(longest),
+            };
             let rejected = match self.attempt(ode, tau, step, y, careful) {
-                Ok(rate) => return Ok((step, rate)),
+                Ok(rate) => {
+                    self.stages.accept(tau, step, y, beside);
+                    return Ok((step, rate));
+                }
                 Err(rejected) => rejected,
             };
             let is_shortest = step <= SHORTEST * length;
@@ -258,13 +294,13 @@ impl Radau {
         }
     }
 
-    /// Tries one step; if it is accepted, `y` is its end.
+    /// Tries one step from `y`.
     fn attempt(
         &mut self,
         ode: &impl Ode,
         tau: f64,
         step: f64,
-        y: &mut [f64],
+        y: &[f64],
         careful: bool,
     ) -> Result<f64, Rejected> {
         let place = self.matrices.place(step, &self.jacobian);
@@ -288,7 +324,6 @@ impl Radau {
             return Err(Rejected::Inaccurate(error));
         }
         self.control.accept(step, error);
-        self.stages.accept(step, y);
         self.record.steps.push(RecordedStep {
             tau,
             step,

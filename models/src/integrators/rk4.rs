@@ -1,6 +1,6 @@
 //! The classical Runge-Kutta method of order 4 (Kutta 1901).
 
-use super::Ode;
+use super::{Ode, Quadrature};
 
 /// Integrator with fixed steps; keeps its memory.
 #[derive(Debug, Clone)]
@@ -23,19 +23,38 @@ impl Rk4 {
     /// Advances `y` over `length` (s) in `parts` equal steps. The result may be infinite or not a number if the
     /// steps are too long for the equation.
     pub fn integrate(&mut self, ode: &impl Ode, length: f64, parts: u64, y: &mut [f64]) {
+        self.integrate_beside(ode, (length, parts), y, &mut ());
+    }
+
+    /// The same, and `beside` with it.
+    pub fn integrate_beside(
+        &mut self,
+        ode: &impl Ode,
+        (length, parts): (f64, u64),
+        y: &mut [f64],
+        beside: &mut impl Quadrature,
+    ) {
         let step = length / parts as f64;
         for part in 0..parts {
-            self.advance(ode, length * (part as f64 / parts as f64), step, y);
+            self.advance(ode, length * (part as f64 / parts as f64), step, y, beside);
         }
     }
 
-    fn advance(&mut self, ode: &impl Ode, tau: f64, step: f64, y: &mut [f64]) {
+    fn advance(
+        &mut self,
+        ode: &impl Ode,
+        tau: f64,
+        step: f64,
+        y: &mut [f64],
+        beside: &mut impl Quadrature,
+    ) {
         self.sum.fill(0.0);
         self.slope.fill(0.0);
         for (node, weight) in [(0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0)] {
             for ((stage, y), slope) in self.stage.iter_mut().zip(y.iter()).zip(&self.slope) {
                 *stage = y + node * step * slope;
             }
+            beside.add(tau + node * step, &self.stage, step / 6.0 * weight);
             ode.derivative(tau + node * step, &self.stage, &mut self.slope);
             for (sum, slope) in self.sum.iter_mut().zip(&self.slope) {
                 *sum += weight * slope;

@@ -3,6 +3,7 @@
 use linchpin_worker::{Interval, StepFailure};
 
 use super::equation::{Driven, EquationOfMotion};
+use super::integrals::{Integrals, Integrating};
 use super::run::Solver;
 use crate::integrators::IntegrationError;
 use crate::integrators::radau::{Radau, Tolerances};
@@ -22,6 +23,24 @@ impl Adaptive {
             tolerances,
         }
     }
+
+    /// By the internal steps that were recorded.
+    fn repeat<E: EquationOfMotion>(
+        &mut self,
+        driven: &Driven<E>,
+        interval: Interval,
+        state: &mut E::State,
+        integrals: &mut Integrals,
+    ) -> Result<(), StepFailure> {
+        let mut integrating = Integrating {
+            driven,
+            length: interval.length,
+            integrals,
+        };
+        self.radau
+            .replay_beside(driven, state.as_mut(), &mut integrating)
+            .map_err(|error| at(interval, error))
+    }
 }
 
 impl<E: EquationOfMotion> Solver<E> for Adaptive {
@@ -30,9 +49,15 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
         ode: &Driven<E>,
         interval: Interval,
         state: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure> {
+        let mut integrating = Integrating {
+            driven: ode,
+            length: interval.length,
+            integrals,
+        };
         self.radau
-            .integrate(ode, interval.length, state.as_mut())
+            .integrate_beside(ode, interval.length, state.as_mut(), &mut integrating)
             .map_err(|error| at(interval, error))
     }
 
@@ -41,13 +66,12 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
         ode: &Driven<E>,
         interval: Interval,
         state: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure> {
         if self.radau.has_recorded_over(interval.length) {
-            self.radau
-                .replay(ode, state.as_mut())
-                .map_err(|error| at(interval, error))
+            self.repeat(ode, interval, state, integrals)
         } else {
-            self.step(ode, interval, state)
+            self.step(ode, interval, state, integrals)
         }
     }
 
@@ -59,14 +83,13 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
         interval: Interval,
         state: &E::State,
         response: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure> {
         if !self.radau.has_recorded(interval.length, state.as_ref()) {
             let mut end = *state;
-            self.step(driven, interval, &mut end)?;
+            self.step(driven, interval, &mut end, &mut Integrals::default())?;
         }
-        self.radau
-            .replay(direction, response.as_mut())
-            .map_err(|error| at(interval, error))
+        self.repeat(direction, interval, response, integrals)
     }
 
     fn memory(&self) -> f64 {

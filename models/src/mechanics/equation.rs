@@ -59,7 +59,8 @@ pub struct Driven<'a, E> {
 }
 
 impl<E: EquationOfMotion> Driven<'_, E> {
-    fn at(&self, tau: f64, y: &[f64]) -> (E::State, E::Inputs) {
+    /// State and inputs at `tau`.
+    pub fn at(&self, tau: f64, y: &[f64]) -> (E::State, E::Inputs) {
         let mut state = E::State::ZERO;
         state.as_mut().copy_from_slice(y);
         let mut inputs = self

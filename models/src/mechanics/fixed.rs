@@ -3,6 +3,7 @@
 use linchpin_worker::{Interval, StepFailure};
 
 use super::equation::{Driven, EquationOfMotion};
+use super::integrals::{Integrals, Integrating};
 use super::run::Solver;
 use crate::integrators::Rk4;
 
@@ -38,10 +39,17 @@ impl<E: EquationOfMotion> Solver<E> for Fixed {
         ode: &Driven<E>,
         interval: Interval,
         state: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure> {
         let parts = parts(interval, self.step)?;
+        let mut integrating = Integrating {
+            driven: ode,
+            length: interval.length,
+            integrals,
+        };
+        let over = (interval.length, parts);
         self.rk4
-            .integrate(ode, interval.length, parts, state.as_mut());
+            .integrate_beside(ode, over, state.as_mut(), &mut integrating);
         self.steps += parts;
         Ok(())
     }

@@ -3,16 +3,18 @@
 use linchpin_worker::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
 
 use super::equation::{Driven, EquationOfMotion, Vector};
+use super::integrals::Integrals;
 use super::joint_loads::JointLoads;
 
 /// How an equation of motion is advanced in time.
 pub trait Solver<E: EquationOfMotion>: Send {
-    /// Advances `state` over `interval`.
+    /// Advances `state` over `interval`, and the integrals over it, which begin at 0.
     fn step(
         &mut self,
         driven: &Driven<E>,
         interval: Interval,
         state: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure>;
 
     /// Advances `state` with the internal steps of the last [`Solver::step`].
@@ -21,13 +23,14 @@ pub trait Solver<E: EquationOfMotion>: Send {
         driven: &Driven<E>,
         interval: Interval,
         state: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure> {
-        self.step(driven, interval, state)
+        self.step(driven, interval, state, integrals)
     }
 
     /// Advances `response`, of a linear equation under `direction`, over the internal steps that `driven` needs from `state`:
     /// the derivative of what [`Solver::step`] computes. For solvers whose internal steps depend on the interval only it is
-    /// a step.
+    /// a step. The integrals are those of the response.
     fn respond(
         &mut self,
         _driven: &Driven<E>,
@@ -35,8 +38,9 @@ pub trait Solver<E: EquationOfMotion>: Send {
         interval: Interval,
         _state: &E::State,
         response: &mut E::State,
+        integrals: &mut Integrals,
     ) -> Result<(), StepFailure> {
-        self.step(direction, interval, response)
+        self.step(direction, interval, response, integrals)
     }
 
     /// What the next step depends on besides the state, as one number; 0 if there is nothing.
@@ -62,6 +66,7 @@ pub struct Run<E: EquationOfMotion, S> {
     joint_loads: JointLoads,
     state: E::State,
     solver: S,
+    integrals: Integrals,
     /// What a snapshot holds: the state, then the solver's memory.
     kept: Vec<f64>,
 }
@@ -73,6 +78,7 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
             joint_loads,
             state: start,
             solver,
+            integrals: Integrals::default(),
             kept: vec![0.0; E::STATE_NAMES.len() + 1],
         }
     }
@@ -82,7 +88,13 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
         &mut self,
         interval: Interval,
         inputs: &Inputs,
-        step: impl FnOnce(&mut S, &Driven<E>, Interval, &mut E::State) -> Result<(), StepFailure>,
+        step: impl FnOnce(
+            &mut S,
+            &Driven<E>,
+            Interval,
+            &mut E::State,
+            &mut Integrals,
+        ) -> Result<(), StepFailure>,
     ) -> Result<(), StepFailure> {
         let driven = Driven {
             equation: &self.equation,
@@ -91,7 +103,9 @@ impl<E: EquationOfMotion, S: Solver<E>> Run<E, S> {
             start: Some(interval.start),
         };
         let mut reached = self.state;
-        step(&mut self.solver, &driven, interval, &mut reached)?;
+        let integrals = &mut self.integrals;
+        integrals.begin();
+        step(&mut self.solver, &driven, interval, &mut reached, integrals)?;
         self.equation.settle(&mut reached);
         let mut values = reached.as_ref().iter().zip(E::STATE_NAMES);
         if let Some((value, name)) = values.find(|(value, _)| !value.is_finite()) {
@@ -163,17 +177,29 @@ impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
         };
         let mut response = E::State::ZERO;
         if interval.length > 0.0 {
+            self.integrals.begin();
             self.solver.respond(
                 &driven(inputs, Some(interval.start)),
                 &driven(direction, None),
                 interval,
                 &self.state,
                 &mut response,
+                &mut self.integrals,
             )?;
         }
         let mut u = E::Inputs::ZERO;
         direction.values_at(interval.length, u.as_mut());
         read(&self.equation, &response, &u, wanted, values)
+    }
+
+    fn integrate_outputs(&mut self, outputs: &[usize], weights: usize) -> Result<(), StepFailure> {
+        self.integrals.choose(outputs, weights);
+        Ok(())
+    }
+
+    fn integrals(&self, values: &mut [f64]) -> Result<(), StepFailure> {
+        self.integrals.read(values);
+        Ok(())
     }
 
     fn snapshot(&self, into: &mut Snapshot) {

@@ -59,6 +59,7 @@ pub fn capabilities() -> v1::Capabilities {
     v1::Capabilities {
         repeats_step_sequence: true,
         joint_loads: true,
+        output_integrals: true,
         ..v1::Capabilities::default()
     }
 }

@@ -6,9 +6,10 @@ use linchpin_worker::{Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem}
 use super::formulation::{Driven, Formulation};
 use super::outputs::{Output, outputs};
 use crate::integrators::radau::{Radau, Tolerances};
-use crate::integrators::{Cause, IntegrationError, Rk4};
+use crate::integrators::{Cause, IntegrationError, Quadrature, Rk4, gauss};
 use crate::mechanics::adaptive::at;
 use crate::mechanics::fixed::parts;
+use crate::mechanics::integrals::Integrals;
 use crate::mechanics::solvers::{Choice, choose};
 
 /// One multibody subsystem.
@@ -18,6 +19,7 @@ pub struct Run {
     state: Vec<f64>,
     reached: Vec<f64>,
     solver: Solver,
+    integrals: Integrals,
     /// What a snapshot holds: the state, then the solver's memory.
     kept: Vec<f64>,
 }
@@ -68,6 +70,7 @@ impl Run {
             kept: vec![0.0; dimension + 1],
             state,
             solver,
+            integrals: Integrals::default(),
         })
     }
 
@@ -84,10 +87,22 @@ impl Run {
             start: interval.start,
             inputs,
         };
+        self.integrals.begin();
+        let mut beside = Integrating {
+            driven: &ode,
+            outputs: &self.outputs,
+            length: interval.length,
+            integrals: &mut self.integrals,
+        };
         // Without a state nothing is integrated: all motion is prescribed.
-        if !self.reached.is_empty() {
+        if self.reached.is_empty() {
+            for [node, weight] in gauss(PRESCRIBED_POINTS) {
+                beside.add(node * interval.length, &[], weight * interval.length);
+            }
+        } else {
+            let state = &mut self.reached;
             self.solver
-                .advance(&ode, interval, steps, &mut self.reached)?;
+                .advance(&ode, (interval, steps), state, &mut beside)?;
         }
         let t = interval.end();
         let mut values = self.reached.iter().zip(self.formulation.state_names());
@@ -109,24 +124,24 @@ impl Solver {
     fn advance(
         &mut self,
         ode: &Driven<'_>,
-        interval: Interval,
-        steps: Steps,
+        (interval, steps): (Interval, Steps),
         state: &mut [f64],
+        beside: &mut impl Quadrature,
     ) -> Result<(), StepFailure> {
         match self {
             Self::Adaptive { radau, .. } => {
                 let is_repeated =
                     steps == Steps::Repeated && radau.has_recorded_over(interval.length);
                 let advanced = if is_repeated {
-                    radau.replay(ode, state)
+                    radau.replay_beside(ode, state, beside)
                 } else {
-                    radau.integrate(ode, interval.length, state)
+                    radau.integrate_beside(ode, interval.length, state, beside)
                 };
                 advanced.map_err(|error| failure(interval, error))
             }
             Self::Fixed { rk4, step, steps } => {
                 let parts = parts(interval, *step)?;
-                rk4.integrate(ode, interval.length, parts, state);
+                rk4.integrate_beside(ode, (interval.length, parts), state, beside);
                 *steps += parts;
                 Ok(())
             }
@@ -150,6 +165,51 @@ fn failure(interval: Interval, error: IntegrationError) -> StepFailure {
             message: format!("{message}: overflow, or a singular position of the mechanism"),
         },
         (_, failure) => failure,
+    }
+}
+
+/// Points of the quadrature along a prescribed motion: exact to rounding where it turns by some radians within a step.
+const PRESCRIBED_POINTS: usize = 16;
+
+/// Outputs, integrated over a step of this length (s).
+struct Integrating<'a> {
+    driven: &'a Driven<'a>,
+    outputs: &'a [Output],
+    length: f64,
+    integrals: &'a mut Integrals,
+}
+
+impl Quadrature for Integrating<'_> {
+    fn add(&mut self, tau: f64, y: &[f64], weight: f64) {
+        if self.integrals.is_idle() {
+            return;
+        }
+        let Driven {
+            formulation,
+            start,
+            inputs,
+        } = *self.driven;
+        let (system, t) = (formulation.system(), start + tau);
+        let kinematics = formulation.kinematics(t, y);
+        let needs_dynamics =
+            |&number: &usize| self.outputs[number].needs_dynamics(system.dimension);
+        // In a singular position there are none, and what needs them is not a number.
+        let dynamics = match self.integrals.outputs().iter().any(needs_dynamics) {
+            true => {
+                let mut values = vec![0.0; inputs.len()];
+                inputs.values_at(tau, &mut values);
+                formulation.dynamics(t, y, &values)
+            }
+            false => None,
+        };
+        self.integrals
+            .add(tau / self.length, weight / self.length, |number| {
+                self.outputs[number].value(system, &kinematics, dynamics.as_ref())
+            });
+    }
+
+    fn longest_step(&self, length: f64) -> f64 {
+        self.integrals.longest_step(length)
     }
 }
 
@@ -189,6 +249,16 @@ impl Subsystem for Run {
             }
             *value = output.value(system, &kinematics, dynamics.as_ref());
         }
+        Ok(())
+    }
+
+    fn integrate_outputs(&mut self, outputs: &[usize], weights: usize) -> Result<(), StepFailure> {
+        self.integrals.choose(outputs, weights);
+        Ok(())
+    }
+
+    fn integrals(&self, values: &mut [f64]) -> Result<(), StepFailure> {
+        self.integrals.read(values);
         Ok(())
     }
 

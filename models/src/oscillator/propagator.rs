@@ -27,15 +27,7 @@ pub struct Propagator {
 impl Propagator {
     /// `None` if a coefficient is not finite.
     pub fn new(kappa: f64, delta: f64) -> Option<Self> {
-        if !(kappa.is_finite() && delta.is_finite()) {
-            return None;
-        }
-        let (mut kappa, mut delta, mut doublings) = (kappa, delta, 0);
-        while kappa > 0.25 || delta > 0.5 {
-            kappa /= 4.0;
-            delta /= 2.0;
-            doublings += 1;
-        }
+        let (kappa, delta, doublings) = short_part(kappa, delta)?;
         let mut own = Self::of_series(kappa, delta);
         for _ in 0..doublings {
             own = own.doubled();
@@ -43,7 +35,8 @@ impl Propagator {
         Some(own)
     }
 
-    fn of_series(kappa: f64, delta: f64) -> Self {
+    /// By power series, over a [`short_part`].
+    pub fn of_series(kappa: f64, delta: f64) -> Self {
         let by_position = increment(kappa, delta, [1.0, 0.0], None);
         let by_velocity = increment(kappa, delta, [0.0, 1.0], None);
         Self {
@@ -57,7 +50,7 @@ impl Propagator {
 
     /// The same over twice the time. The velocity's unit changes with that of time, and `s^j` of the long part is
     /// `s^j / 2^j` in its first half and `(1 + s)^j / 2^j` in its second.
-    fn doubled(&self) -> Self {
+    pub fn doubled(&self) -> Self {
         let [[xx, xv], [vx, vv]] = self.transition;
         let transition = [
             [(2.0 + xx) * xx + xv * vx, (2.0 + xx + vv) * xv / 2.0],
@@ -81,25 +74,54 @@ impl Propagator {
     }
 }
 
-/// Increment of `(x, x')` from `s = 0` to 1 by the power series `x = sum x_k s^k` under the input `s^power`.
+/// `kappa` and `delta` of a part of the step over which power series converge, and how often it is doubled; `None` if they are not finite.
+pub fn short_part(kappa: f64, delta: f64) -> Option<(f64, f64, usize)> {
+    if !(kappa.is_finite() && delta.is_finite()) {
+        return None;
+    }
+    let (mut kappa, mut delta, mut doublings) = (kappa, delta, 0);
+    while kappa > 0.25 || delta > 0.5 {
+        kappa /= 4.0;
+        delta /= 2.0;
+        doublings += 1;
+    }
+    Some((kappa, delta, doublings))
+}
+
+/// A motion as the power series `x = sum x_k s^k`.
+pub struct Series {
+    terms: [f64; TERMS + 2],
+}
+
+impl Series {
+    /// From a state, under the input `s^power`.
+    pub fn new(kappa: f64, delta: f64, start: [f64; 2], power: Option<usize>) -> Self {
+        let mut terms = [0.0; TERMS + 2];
+        terms[0] = start[0];
+        terms[1] = start[1];
+        for k in 0..TERMS {
+            let input = if power == Some(k) { 1.0 } else { 0.0 };
+            let next = (k + 1) as f64;
+            terms[k + 2] =
+                (input - delta * next * terms[k + 1] - kappa * terms[k]) / (next * (next + 1.0));
+        }
+        Self { terms }
+    }
+
+    /// The sum of what `factor` makes of each power of the displacement `x - x(0)`, the smallest terms first.
+    pub fn displacement(&self, factor: impl Fn(usize) -> f64) -> f64 {
+        let terms = self.terms.iter().enumerate().skip(1).rev();
+        terms.fold(0.0, |sum, (power, term)| sum + factor(power) * term)
+    }
+}
+
+/// Increment of `(x, x')` from `s = 0` to 1 under the input `s^power`.
 fn increment(kappa: f64, delta: f64, start: [f64; 2], power: Option<usize>) -> [f64; 2] {
-    let mut terms = [0.0; TERMS + 2];
-    terms[0] = start[0];
-    terms[1] = start[1];
-    for k in 0..TERMS {
-        let input = if power == Some(k) { 1.0 } else { 0.0 };
-        let next = (k + 1) as f64;
-        terms[k + 2] =
-            (input - delta * next * terms[k + 1] - kappa * terms[k]) / (next * (next + 1.0));
-    }
-    // The smallest terms first.
-    let mut position = 0.0;
-    let mut velocity = 0.0;
-    for (k, term) in terms.iter().enumerate().skip(2).rev() {
-        position += term;
-        velocity += k as f64 * term;
-    }
-    [position + start[1], velocity]
+    let series = Series::new(kappa, delta, start, power);
+    let bent = |factor: fn(usize) -> f64| {
+        series.displacement(|power| if power > 1 { factor(power) } else { 0.0 })
+    };
+    [series.displacement(|_| 1.0), bent(|power| power as f64)]
 }
 
 #[cfg(test)]

@@ -45,6 +45,10 @@ fn signals() -> impl Strategy<Value = Vec<v1::Signal>> {
     proptest::collection::vec(signal(), 0..4)
 }
 
+fn integrals() -> impl Strategy<Value = u32> {
+    prop_oneof![0..9u32, any::<u32>()]
+}
+
 #[derive(Debug, Clone)]
 enum Call {
     Step(v1::StepRequest),
@@ -57,17 +61,17 @@ enum Call {
 
 prop_compose! {
     fn step()(sequence in 40u64..46, outputs in -1..3i32, t in numbers(), step in numbers(), signals in signals(),
-        instants in instants()) -> v1::StepRequest {
-        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs, instants }
+        instants in instants(), integrals in integrals()) -> v1::StepRequest {
+        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs, instants, integrals }
     }
 }
 
 prop_compose! {
     fn look()(
         t in numbers(), step in numbers(), signals in signals(), perturbed in signals(), directions in signals(),
-        instants in instants(),
+        instants in instants(), integrals in integrals(),
     ) -> v1::Predict {
-        v1::Predict { t, step, signals, perturbed, directions, instants }
+        v1::Predict { t, step, signals, perturbed, directions, instants, integrals }
     }
 }
 
@@ -86,6 +90,7 @@ fn call() -> impl Strategy<Value = Call> {
             perturbed: look.perturbed,
             directions: look.directions,
             instants: look.instants,
+            integrals: look.integrals,
         })),
         (look(), proptest::collection::vec(name, 0..3)).prop_map(|(look, outputs)| {
             Call::Evaluate(v1::EvaluateRequest {
@@ -107,6 +112,7 @@ fn call() -> impl Strategy<Value = Call> {
                         signals: step.signals,
                         samples,
                         instants: step.instants,
+                        integrals: step.integrals,
                     }),
                     predict: optional(predicts, ahead),
                     go_back,

@@ -40,7 +40,7 @@ impl Driver {
             step,
             signals,
             outputs: v1::OutputSet::Coupling.into(),
-            instants: Vec::new(),
+            ..v1::StepRequest::default()
         }
     }
 

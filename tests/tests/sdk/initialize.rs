@@ -69,6 +69,9 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             joint_loads: !without_joint_loads.contains(&model.name.as_str()),
             directional_derivatives: ["oscillator", "pi-controller"].contains(&model.name.as_str()),
             interior_outputs: true,
+            output_integrals: ![&nonsmooth[..], &["stand", "tank"]]
+                .concat()
+                .contains(&model.name.as_str()),
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }

@@ -12,6 +12,7 @@ mod going_back;
 mod initialize;
 mod instances;
 mod instants;
+mod integrals;
 mod joint_load_mistakes;
 mod joint_loads;
 mod peer;

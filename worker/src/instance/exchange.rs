@@ -3,7 +3,7 @@
 use linchpin_proto::exchange::{check_evaluation, check_samples};
 use linchpin_proto::v1::{self, Failure};
 
-use super::{Answer, Base, Horizon, Instance, Meter, Sequence, interval};
+use super::{Answer, Base, Horizon, Inside, Instance, Meter, Sequence, interval};
 use crate::Interval;
 
 impl Instance {
@@ -102,8 +102,12 @@ impl Instance {
         let interval = interval(advance.t, advance.step)?;
         check_samples(advance)?;
         let advanced = reply.advanced.get_or_insert_default();
+        let inside = Inside {
+            instants: &advance.instants,
+            integrals: advance.integrals,
+        };
         self.motion.advance(
-            (interval, &advance.instants),
+            (interval, inside),
             &advance.signals,
             v1::OutputSet::All,
             &mut advanced.values,
@@ -128,6 +132,7 @@ impl Instance {
         let horizon = Horizon::of(look)?;
         let outputs = into.outputs.get_or_insert_default();
         self.motion.set_signals(&look.signals)?;
+        self.motion.integrate_outputs(look.integrals)?;
         if let (Horizon::Step(interval), [_, ..]) = (horizon, &look.instants[..]) {
             let step = (interval, &look.instants[..]);
             let answers = (Some(&mut outputs.values), into.perturbed);

@@ -1,6 +1,7 @@
 //! A subsystem on its way: steps, outputs, and the states that it can go back to.
 
 mod cut;
+mod integrals;
 mod look_ahead;
 mod meter;
 
@@ -9,6 +10,8 @@ use linchpin_proto::v1::{self, Failure};
 
 use super::signals::{Signals, find};
 use crate::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
+
+use integrals::Integrated;
 
 pub(super) use look_ahead::{Horizon, Sequence};
 pub(super) use meter::Meter;
@@ -42,6 +45,7 @@ pub(super) struct Motion {
     coupling_outputs: Vec<usize>,
     all_outputs: Vec<usize>,
     interior_outputs: Vec<usize>,
+    integrated: Integrated,
     stands_at: StateNumber,
     newest: StateNumber,
     last_step: Option<(Interval, StateNumber)>,
@@ -58,6 +62,15 @@ pub(super) struct Motion {
     unread: Vec<f64>,
     /// Derivatives at an instant.
     at_instant: Vec<v1::Outputs>,
+}
+
+/// What a request wants to know about the inside of a step.
+#[derive(Clone, Copy)]
+pub(super) struct Inside<'a> {
+    /// Instants at which it is cut, s after its start.
+    pub instants: &'a [f64],
+    /// Number of integrals of each output.
+    pub integrals: u32,
 }
 
 /// Which state a step starts from.
@@ -83,6 +96,7 @@ impl Motion {
             "recorded_outputs",
         )?);
         let interior_outputs = find(outputs, &request.interior_outputs, "interior_outputs")?;
+        let integrated = find(outputs, &request.integrated_outputs, "integrated_outputs")?;
         let mut committed = Kept::default();
         subsystem.snapshot(&mut committed.snapshot);
         Ok(Self {
@@ -92,6 +106,7 @@ impl Motion {
             coupling_outputs,
             all_outputs,
             interior_outputs,
+            integrated: Integrated::new(integrated, model)?,
             stands_at: committed.number,
             newest: committed.number,
             last_step: None,
@@ -116,21 +131,23 @@ impl Motion {
         self.signals.set(signals)
     }
 
-    /// Steps from the committed state, cut at `instants`, and reads outputs; [`Motion::commit`] makes the end the committed state.
+    /// Steps from the committed state and reads outputs; [`Motion::commit`] makes the end the committed state.
     pub(super) fn advance(
         &mut self,
-        (interval, instants): (Interval, &[f64]),
+        (interval, inside): (Interval, Inside<'_>),
         signals: &[v1::Signal],
         outputs: v1::OutputSet,
         values: &mut Vec<f64>,
     ) -> Result<(), Failure> {
         self.signals.set(signals)?;
+        self.integrate_outputs(inside.integrals)?;
         self.go_to(Base::Committed)?;
-        if instants.is_empty() {
+        if inside.instants.is_empty() {
             self.integrate(interval, Sequence::Own)?;
             self.read(interval, outputs, values)?;
+            self.append_integrals(interval, values)?;
         } else {
-            self.step_cut((interval, instants), outputs, values)?;
+            self.step_cut((interval, inside.instants), outputs, values)?;
         }
         self.advanced.snapshot.clear();
         self.subsystem.snapshot(&mut self.advanced.snapshot);

@@ -113,12 +113,14 @@ fn model_text(model: &Model) -> String {
     let capabilities = model.capabilities.unwrap_or_default();
     text += &format!(
         "  exchange stream {}, perturbed steps repeat the step sequence {}, exportable snapshots {}, \
-         directional derivatives {}, outputs inside a step {}\n",
+         directional derivatives {}, outputs inside a step {}, \
+         integrals of outputs {}\n",
         yes(capabilities.exchange),
         yes(capabilities.repeats_step_sequence),
         yes(capabilities.exportable_snapshot),
         yes(capabilities.directional_derivatives),
-        yes(capabilities.interior_outputs)
+        yes(capabilities.interior_outputs),
+        yes(capabilities.output_integrals)
     );
     text
 }

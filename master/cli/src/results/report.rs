@@ -5,7 +5,7 @@ mod contacts;
 use std::fmt::Write;
 use std::path::Path;
 
-use linchpin_master::results::{DegreeStatistics, Statistics, StepStatistics};
+use linchpin_master::results::{DegreeStatistics, MomentsOf, Statistics, StepStatistics};
 use linchpin_master::run::settings::Settings;
 use linchpin_master::scene::{Degree, Method, Scene, StepControl};
 use serde::Serialize;
@@ -191,6 +191,9 @@ impl RunReport {
         if let Some(degrees) = &statistics.degrees {
             write_degrees(degrees, text)?;
         }
+        if let Some(moments) = &statistics.moments {
+            write_moments(moments, text)?;
+        }
         writeln!(text, "  exchanges    {:>10}", statistics.exchanges)?;
         writeln!(
             text,
@@ -218,6 +221,20 @@ impl RunReport {
             statistics.time_solving
         )
     }
+}
+
+/// Which conditions are served by what.
+fn write_moments(moments: &MomentsOf, text: &mut String) -> std::fmt::Result {
+    let kinds = [
+        ("integrals over the step", &moments.integrals),
+        ("instants inside it", &moments.instants),
+    ];
+    for (kind, names) in kinds {
+        if !names.is_empty() {
+            writeln!(text, "  moments from {kind}: {}", names.join(", "))?;
+        }
+    }
+    Ok(())
 }
 
 /// Subsystems with springs or dampers that act within a macro step.

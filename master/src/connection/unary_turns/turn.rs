@@ -98,6 +98,7 @@ impl<'a, C: Contract> Turn<'a, C> {
         };
         let whole = StepRequest {
             instants: advance.instants.clone(),
+            integrals: advance.integrals,
             ..step(advance.step)
         };
         reply.advanced = self.step_from(start, whole)?;
@@ -144,6 +145,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             signals: predict.signals.clone(),
             outputs: OutputSet::Coupling.into(),
             instants: predict.instants.clone(),
+            integrals: predict.integrals,
             ..StepRequest::default()
         };
         let mut ahead = Ahead {
@@ -163,6 +165,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             perturbed: predict.perturbed.clone(),
             directions: predict.directions.clone(),
             instants: predict.instants.clone(),
+            integrals: predict.integrals,
         })?;
         self.count(answer.work);
         ahead.perturbed = answer.outputs;

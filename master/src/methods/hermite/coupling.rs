@@ -90,13 +90,14 @@ impl HermiteCoupling {
             .variant
             .starts_anew()
             .then(|| System::new(layout, Unknowns::ends(layout)));
-        let sample = Sample::new(&unknowns, &rule.shares, size);
-        let settled = Sample::new(&unknowns, &rule.shares, size);
+        let looks: Vec<_> = rule.looks().collect();
+        let sample = Sample::new(&unknowns, &looks, size);
+        let settled = Sample::new(&unknowns, &looks, size);
         let mut end = System::new(layout, unknowns.clone());
-        if !rule.shares.is_empty() {
-            let at_instants = rule.shares.iter().map(|&share| shapes.at(layout, share));
+        if !looks.is_empty() {
+            let shown = looks.iter().map(|look| look.of(|share| shapes.at(layout, share)));
             let weights = rule.weights(family);
-            end = end.with_moments(Moments::new(layout, unknowns, weights, at_instants.collect()));
+            end = end.with_moments(Moments::new(layout, unknowns, weights, shown.collect()));
         }
         let stack = Stack::new(layout, family, &end, point.as_ref());
         let mut method = Self {

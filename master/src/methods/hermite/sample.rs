@@ -3,6 +3,7 @@
 use nalgebra::UnitQuaternion;
 
 use super::curves::HermiteCurves;
+use super::moments::Look;
 use crate::system::Point;
 use crate::system::unknowns::Unknowns;
 
@@ -10,23 +11,25 @@ use crate::system::unknowns::Unknowns;
 pub struct Sample {
     shares: Vec<f64>,
     inner: Vec<Vec<f64>>,
-    /// Instants inside the step as shares of it, and the values there.
-    instants: Vec<f64>,
+    /// How the inside of the step is looked at, and what is seen.
+    looks: Vec<Look>,
     inside: Vec<Vec<f64>>,
+    at_node: Vec<f64>,
     ends: Vec<f64>,
     rates: Vec<f64>,
 }
 
 impl Sample {
     /// For `size` variables with these unknowns; the last share is the end of the step.
-    /// `instants` are shares of the step at which conditions are looked at.
-    pub fn new(unknowns: &Unknowns, instants: &[f64], size: usize) -> Self {
+    /// `looks` tell how conditions inside the step are looked at.
+    pub fn new(unknowns: &Unknowns, looks: &[Look], size: usize) -> Self {
         let shares = unknowns.shares().to_vec();
         Self {
             inner: vec![vec![0.0; size]; shares.len() - 1],
             shares,
-            inside: vec![vec![0.0; size]; instants.len()],
-            instants: instants.to_vec(),
+            inside: vec![vec![0.0; size]; looks.len()],
+            looks: looks.to_vec(),
+            at_node: vec![0.0; size],
             ends: vec![0.0; size],
             rates: vec![0.0; size],
         }
@@ -34,10 +37,22 @@ impl Sample {
 
     /// Takes the values of `curves`.
     pub fn take(&mut self, curves: &HermiteCurves) {
-        let inner = self.inner.iter_mut().zip(&self.shares);
-        let inside = self.inside.iter_mut().zip(&self.instants);
-        for (values, &share) in inner.chain(inside) {
+        for (values, &share) in self.inner.iter_mut().zip(&self.shares) {
             curves.sample(share, values);
+        }
+        for (values, look) in self.inside.iter_mut().zip(&self.looks) {
+            match look {
+                Look::At(share) => curves.sample(*share, values),
+                Look::Integral(nodes) => {
+                    values.fill(0.0);
+                    for &[share, factor] in nodes {
+                        curves.sample(share, &mut self.at_node);
+                        for (value, at_node) in values.iter_mut().zip(&self.at_node) {
+                            *value += factor * at_node;
+                        }
+                    }
+                }
+            }
         }
         curves.sample(1.0, &mut self.ends);
         curves.sample_rates(&mut self.rates);

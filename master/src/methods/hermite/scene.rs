@@ -6,7 +6,9 @@ use super::coupling::HermiteCoupling;
 use super::moments::Rule;
 use super::variant::{Family, HIGHEST_DEGREE, LEAST_DEGREE, Variant};
 use crate::joint::Level;
-use crate::methods::definition::{Definition, DEGREE, EXCHANGED_DEGREE, Given, Lacking, OwnCurves, Parameters};
+use crate::methods::definition::{
+    Definition, DEGREE, EXCHANGED_DEGREE, Given, Lacking, OwnCurves, Parameters, Served, WantedInside,
+};
 use crate::methods::method::Built;
 use crate::reading::formula::Steps;
 use crate::reading::key::{Key, Takes, texts};
@@ -26,6 +28,8 @@ pub struct Hermite {
     pub instants: usize,
     /// Whether the scene says how many.
     pub instants_are_given: bool,
+    /// What moments over a step are made of; default [`Served::Instants`].
+    pub moments: Served,
     /// Whether top conditions are relaxed where the top coefficients do not fall; default true.
     pub limiter: bool,
     /// Whether connected signals are polynomials through past values; default: only where a worker tells nothing inside a step.
@@ -38,7 +42,7 @@ const INSTANTS: usize = 4;
 /// More are not needed for responses of 48 rad within a step.
 const MOST_INSTANTS: usize = 16;
 
-const KEYS: [Key; 4] = [
+const KEYS: [Key; 5] = [
     Key::new("variant", Takes::Choice(&texts(&VARIANTS)))
         .default_first()
         .means("[what holds at the start of a step](../theory/hermite.md#the-variants)"),
@@ -49,10 +53,20 @@ const KEYS: [Key; 4] = [
             "instants inside a macro step at which the workers tell their positions, for degree 3 and more \
              and for connected signals; at least degree - 1. More tell faster responses apart: 3 rad within a step each",
         ),
+    Key::new("moments", Takes::Choice(&texts(&SERVED)))
+        .default_first()
+        .means(
+            "what the [moments](../theory/moments.md#moments-from-integrals) of conditions are made of: outputs at instants inside the \
+             step, or `\"integrals\"` of outputs over it where the conditions are linear in outputs, and instants elsewhere; a worker of \
+             such a condition that does not offer integrals is refused. `\"automatic\"`: integrals where all workers of a condition \
+             offer them",
+        ),
     Key::new("limiter", Takes::Choice(&texts(&SWITCH)))
         .default_first()
         .means("whether the [top condition is relaxed](../theory/moments.md#the-limiter) where the top coefficient does not fall"),
 ];
+const SERVED: [(&str, Served); 3] =
+    [("instants", Served::Instants), ("integrals", Served::Integrals), ("automatic", Served::Automatic)];
 const SWITCH: [(&str, bool); 2] = [("on", true), ("off", false)];
 const VARIANTS: [(&str, Variant); 2] = [("apv", Variant::Apv), ("c0pv", Variant::C0pv)];
 
@@ -68,7 +82,7 @@ impl Definition for Hermite {
         _steps: Option<Steps>,
         problems: &mut Problems<'_>,
     ) -> Option<Self> {
-        let [variant, degree, instants, limiter] = section.fields(&KEYS, problems);
+        let [variant, degree, instants, moments, limiter] = section.fields(&KEYS, problems);
         let variant = choice(variant, &VARIANTS, problems);
         let degree = match degree {
             Some(field) => read_degree(&field, problems),
@@ -83,8 +97,10 @@ impl Definition for Hermite {
             Some(field) => field.whole_within(highest - 1, MOST_INSTANTS, problems),
             None => Some(INSTANTS.max(highest)),
         };
+        let moments = choice(moments, &SERVED, problems);
         let limiter = choice(limiter, &SWITCH, problems);
         Some(Self {
+            moments: moments?,
             limiter: limiter?,
             variant: variant?,
             degree: highest,
@@ -111,27 +127,29 @@ impl Parameters for Hermite {
         let start = given.established.and_then(|values| values.first());
         let values = start.map_or(&given.values[..layout.variables()], |start| start);
         let history = History::new(variables, values, given.attitudes);
-        let family = self.family(!layout.inside.shares.is_empty());
-        let rule = self.rule(layout.inside.shares.len(), layout.has_signals());
+        let inside = &layout.inside;
+        let family = self.family(inside.is_told());
+        let rule = self.rule(inside.shares.len(), layout.has_signals()).with_integrals(inside.weights);
         let outputs = given.outputs;
         Ok(HermiteCoupling::build((family, &rule, self.limiter), history, layout, outputs))
     }
 
-    fn instants(&self, has_signals: bool) -> Vec<f64> {
-        let needs_signals = has_signals && !self.continues_signals;
+    fn inside(&self, has_signals: bool) -> Option<WantedInside> {
+        let has_own_signals = has_signals && !self.continues_signals;
+        let family = self.family(has_own_signals);
+        // The weight of a moment of motion has the degree of its number, as has that of a signal.
+        let weights = family.moments_of_motion().max(family.moments_of_signals());
         // More than a curve meets by its moments: the others show what it misses.
-        let instants = match needs_signals && !self.instants_are_given {
+        let instants = match has_own_signals && !self.instants_are_given {
             true => self.instants.max(self.degree + 2),
             false => self.instants,
         };
-        match self.degree > LEAST_DEGREE || needs_signals {
-            true => self.rule(instants, has_signals).shares,
-            false => Vec::new(),
-        }
-    }
-
-    fn needs_instants(&self) -> bool {
-        self.degree > LEAST_DEGREE
+        (weights > 0).then(|| WantedInside {
+            shares: self.rule(instants, has_signals).shares,
+            weights,
+            moments: self.moments,
+            is_needed: self.degree > LEAST_DEGREE,
+        })
     }
 
     fn own_curves(&self) -> Option<OwnCurves> {

@@ -10,12 +10,12 @@ use std::ops::Range;
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
-use crate::layout::{Frame, Layout};
+use crate::layout::{Frame, Layout, MomentsFrom};
 use crate::signal::attitude::{small_rotation, unit_quaternion};
 use crate::system::Outputs;
 
-/// Writes the attitudes of all frames at the end of a look-ahead, then at each instant inside it; where they are not told there, those at
-/// the end.
+/// Writes the attitudes of all frames at the end of a look-ahead, then at each look inside it; where they are not told there, as with
+/// integrals, those at the end.
 pub fn attitudes_of(
     layout: &Layout,
     ahead: &dyn Outputs,
@@ -32,14 +32,15 @@ pub fn attitudes_of(
             .iter()
             .map(|frame| at_end(frame).unwrap_or_default()),
     );
-    for instant in 0..layout.inside.shares.len() {
+    for look in 0..layout.inside.looks() {
+        let is_instant = layout.inside.kind(look) == MomentsFrom::Instants;
         for (number, frame) in layout.frames.iter().enumerate() {
             let told = ahead.inside(frame.subsystem);
             let inside = attitude(frame, |place| {
-                let place = layout.inside.find(frame.subsystem, instant, place)?;
+                let place = layout.inside.find(frame.subsystem, look, place)?;
                 told.get(place).copied()
             });
-            attitudes.push(inside.unwrap_or(attitudes[number]));
+            attitudes.push(inside.filter(|_| is_instant).unwrap_or(attitudes[number]));
         }
     }
 }
@@ -66,7 +67,7 @@ pub fn turn(
 ) {
     let frames = layout.frames.len();
     for (number, frame) in layout.frames.iter().enumerate() {
-        let of_frame = |all: &[UnitQuaternion<f64>], instant: usize| all[instant * frames + number];
+        let of_frame = |all: &[UnitQuaternion<f64>], look: usize| all[look * frames + number];
         for own in &of_input[layout.input_range(frame.subsystem)] {
             for response in responses[own.clone()].iter_mut() {
                 if response.is_empty() {
@@ -79,10 +80,10 @@ pub fn turn(
                 if response.len() == outputs {
                     continue;
                 }
-                for instant in 0..layout.inside.shares.len() {
-                    let inside = [before, now].map(|all| of_frame(all, instant + 1));
+                for look in 0..layout.inside.looks() {
+                    let inside = [before, now].map(|all| of_frame(all, look + 1));
                     let find = |place: usize| {
-                        let found = layout.inside.find(frame.subsystem, instant, place);
+                        let found = layout.inside.find(frame.subsystem, look, place);
                         found.map(|found| outputs + found)
                     };
                     turn_outputs(frame, inside, find, response);
@@ -99,7 +100,7 @@ pub fn turn(
     }
 }
 
-/// Turns what a response says at one instant; `find` tells where an output stands there, if it is told.
+/// Turns what a response says at one look; `find` tells where an output stands there, if it is told.
 fn turn_outputs(
     frame: &Frame,
     [before, now]: [UnitQuaternion<f64>; 2],

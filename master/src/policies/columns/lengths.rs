@@ -47,7 +47,7 @@ impl Between {
                 }
             }
         }
-        // What is told inside a step are positions.
+        // What is told inside a step are positions and their means.
         for (subsystem, powers) in powers.iter_mut().enumerate() {
             let size = powers.len() + layout.inside.values(subsystem);
             powers.resize(size, POWERS[0]);

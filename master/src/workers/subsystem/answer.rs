@@ -17,6 +17,19 @@ pub(crate) enum Answered {
     Refused(RunError),
 }
 
+/// How much of the inside of a step an answer tells.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Inside {
+    integrals: u32,
+    instants: usize,
+}
+
+/// Nothing is told.
+pub(super) const NOTHING: Inside = Inside {
+    integrals: 0,
+    instants: 0,
+};
+
 impl Subsystem {
     /// Takes the answer to a request to advance and to look ahead, as [`Subsystem::collect`] does. What ends the run is an error.
     pub(crate) fn collect_advance(&mut self, step: MacroStep) -> Result<Answered, RunError> {
@@ -83,12 +96,16 @@ impl Subsystem {
             ["samples", "sampled outputs"],
             samples,
             &self.output_names,
-            0,
+            NOTHING,
             step,
         )?;
         let advanced = values(self.reply.advanced.as_ref());
         let named = ("advanced outputs", &self.output_names[..]);
-        self.check(named, advanced, advance.instants.len(), step)?;
+        let inside = Inside {
+            integrals: advance.integrals,
+            instants: advance.instants.len(),
+        };
+        self.check(named, advanced, inside, step)?;
         let at_end = &advanced[..self.output_names.len()];
         self.outputs.clear();
         self.outputs.extend_from_slice(at_end);
@@ -99,19 +116,17 @@ impl Subsystem {
         let names = &self.output_names[..self.coupling_outputs];
         let reply = &self.reply;
         if let Some(predict) = &self.request.predict {
-            let instants = predict.instants.len();
-            self.check(
-                ("predicted outputs", names),
-                self.predicted(),
-                instants,
-                step,
-            )?;
+            let inside = Inside {
+                integrals: predict.integrals,
+                instants: predict.instants.len(),
+            };
+            self.check(("predicted outputs", names), self.predicted(), inside, step)?;
             let perturbed = (&reply.perturbed[..], predict.perturbed.len());
             self.check_each(
                 ["perturbed steps", "perturbed outputs"],
                 perturbed,
                 names,
-                instants,
+                inside,
                 step,
             )?;
             let derivatives = (&reply.derivatives[..], predict.directions.len());
@@ -122,7 +137,7 @@ impl Subsystem {
                 ],
                 derivatives,
                 names,
-                instants,
+                inside,
                 step,
             )?;
         }
@@ -134,13 +149,13 @@ impl Subsystem {
         let reply = &self.reply;
         if let Some(evaluate) = &self.request.evaluate {
             let evaluated = values(reply.evaluated.as_ref());
-            self.check(("evaluated outputs", names), evaluated, 0, step)?;
+            self.check(("evaluated outputs", names), evaluated, NOTHING, step)?;
             let perturbed = (&reply.evaluated_perturbed[..], evaluate.perturbed.len());
             self.check_each(
                 ["perturbed evaluations", "perturbed outputs"],
                 perturbed,
                 names,
-                0,
+                NOTHING,
                 step,
             )?;
             let derivatives = (&reply.evaluated_derivatives[..], evaluate.directions.len());
@@ -151,7 +166,7 @@ impl Subsystem {
                 ],
                 derivatives,
                 names,
-                0,
+                NOTHING,
                 step,
             )?;
         }
@@ -164,27 +179,28 @@ impl Subsystem {
         [list, entry]: [&'static str; 2],
         (found, expected): (&[v1::Outputs], usize),
         names: &[String],
-        instants: usize,
+        inside: Inside,
         step: MacroStep,
     ) -> Result<(), RunError> {
         if found.len() != expected {
             return Err(self.wrong_count(list, found.len(), expected, step));
         }
         for outputs in found {
-            self.check((entry, names), &outputs.values, instants, step)?;
+            self.check((entry, names), &outputs.values, inside, step)?;
         }
         Ok(())
     }
 
-    /// Checks that outputs are whole and finite: those with `names`, then interior ones at that many `instants`.
+    /// Checks that outputs are whole and finite: those with `names`, then what is told of the `inside` of the step.
     pub(super) fn check(
         &self,
         (what, names): (&'static str, &[String]),
         values: &[f64],
-        instants: usize,
+        inside: Inside,
         step: MacroStep,
     ) -> Result<(), RunError> {
-        let expected = names.len() + instants * self.interior_names.len();
+        let integrals = inside.integrals as usize * self.integrated_names.len();
+        let expected = names.len() + integrals + inside.instants * self.interior_names.len();
         if values.len() != expected {
             return Err(self.wrong_count(what, values.len(), expected, step));
         }
@@ -192,7 +208,7 @@ impl Subsystem {
             None => Ok(()),
             Some(place) => Err(RunError::NotFinite {
                 subsystem: self.name.clone(),
-                variable: self.name_of(names, place),
+                variable: self.name_of(names, integrals, place),
                 value: values[place],
                 t: step.start,
                 step: step.length,
@@ -200,12 +216,22 @@ impl Subsystem {
         }
     }
 
-    fn name_of(&self, names: &[String], place: usize) -> String {
-        let inside = || self.interior_names.iter().cycle();
-        let name = names
-            .get(place)
-            .or_else(|| inside().nth(place - names.len()));
-        name.cloned().unwrap_or_default()
+    fn name_of(&self, names: &[String], integrals: usize, place: usize) -> String {
+        if let Some(name) = names.get(place) {
+            return name.clone();
+        }
+        let place = place - names.len();
+        match place.checked_sub(integrals) {
+            None => {
+                let number = place / self.integrated_names.len();
+                let name = &self.integrated_names[place % self.integrated_names.len()];
+                format!("integral {number} of {name}")
+            }
+            Some(place) => {
+                let name = self.interior_names.iter().cycle().nth(place);
+                name.cloned().unwrap_or_default()
+            }
+        }
     }
 
     fn wrong_count(

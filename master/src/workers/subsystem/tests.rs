@@ -185,3 +185,73 @@ fn a_part_that_is_no_number_or_too_short_is_refused() {
         );
     }
 }
+
+/// Takes an answer to a look-ahead with two integrals each of x and y, and x at one instant, in which the values of one part are changed.
+fn look_inside(change: impl Fn(&mut Vec<f64>), part: usize) -> RunError {
+    let told = [0.4, 0.1, 0.2, 0.3, 0.5, 0.6];
+    let mut parts = [told.to_vec(), told.to_vec(), told.to_vec()];
+    change(&mut parts[part]);
+    let [predicted, perturbed, derivatives] = parts.map(|values| outputs(&values));
+    let reply = ExchangeReply {
+        predicted: Some(predicted),
+        perturbed: vec![perturbed],
+        derivatives: vec![derivatives],
+        ..ExchangeReply::default()
+    };
+    let connection = Direct::new(std::sync::Arc::new(Parrot(reply)));
+    let mut subsystem = Subsystem::new("mass", Box::new(connection));
+    let request = v1::InitializeRequest {
+        coupling_outputs: vec!["x".into()],
+        integrated_outputs: vec!["x".into(), "y".into()],
+        interior_outputs: vec!["z".into()],
+        ..v1::InitializeRequest::default()
+    };
+    subsystem.initialize(request).unwrap();
+    subsystem.request.predict = Some(Predict {
+        perturbed: vec![Signal::default()],
+        directions: vec![Signal::default()],
+        instants: vec![0.1],
+        integrals: 2,
+        ..Predict::default()
+    });
+    let step = MacroStep {
+        start: 0.25,
+        length: 0.5,
+        end: 0.75,
+    };
+    subsystem.post(step).unwrap();
+    subsystem.collect(step).unwrap_err()
+}
+
+#[test]
+fn integrals_that_are_no_numbers_or_too_few_are_refused_by_name() {
+    let parts = [
+        "predicted outputs",
+        "perturbed outputs",
+        "derivatives of predicted outputs",
+    ];
+    for (number, part) in parts.into_iter().enumerate() {
+        for (place, name) in [
+            (1, "integral 0 of x"),
+            (2, "integral 0 of y"),
+            (4, "integral 1 of y"),
+            (5, "z"),
+        ] {
+            let error = look_inside(|values| values[place] = f64::NAN, number).to_string();
+            let words = format!("sent NaN for output \"{name}\" in the macro step from t = 0.25 s");
+            assert!(
+                error.contains("\"mass\"") && error.contains(&words),
+                "{part}: {error}"
+            );
+        }
+        // Without integrals, with one more.
+        for length in [2, 7] {
+            let error = look_inside(|values| values.resize(length, 0.0), number).to_string();
+            let words = format!("answered with {length} {part} instead of 6");
+            assert!(
+                error.contains("\"mass\"") && error.contains(&words),
+                "{error}"
+            );
+        }
+    }
+}

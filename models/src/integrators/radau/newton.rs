@@ -3,8 +3,8 @@
 use nalgebra::{Complex, DVector};
 
 use super::matrices::Matrices;
-use super::tableau::{ALPHA, BETA, C, GAMMA, T, T_INVERSE, collocation_weights, dot};
-use crate::integrators::Ode;
+use super::tableau::{ALPHA, B, BETA, C, GAMMA, T, T_INVERSE, collocation_weights, dot};
+use crate::integrators::{Ode, Quadrature};
 
 /// Iterations after which a step is given up.
 const MOST_ITERATIONS: usize = 10;
@@ -64,8 +64,14 @@ impl Stages {
         self.accepted = None;
     }
 
-    /// Brings `y` to the end of the step and keeps its stages; the next step starts from their polynomial.
-    pub fn accept(&mut self, step: f64, y: &mut [f64]) {
+    /// Brings `y` to the end of the step from `tau`, and `beside` with it, and keeps its stages; the next step starts from their polynomial.
+    pub fn accept(&mut self, tau: f64, step: f64, y: &mut [f64], beside: &mut impl Quadrature) {
+        for ((z, c), b) in self.z.iter().zip(C).zip(B) {
+            for ((stage, y), z) in self.stage.iter_mut().zip(&*y).zip(z) {
+                *stage = y + z;
+            }
+            beside.add(tau + c * step, &self.stage, b * step);
+        }
         for (y, z) in y.iter_mut().zip(&self.z[2]) {
             *y += z;
         }

@@ -5,6 +5,9 @@ const SQRT_6: f64 = 2.449_489_742_783_178;
 /// Nodes c_i.
 pub const C: [f64; 3] = [(4.0 - SQRT_6) / 10.0, (4.0 + SQRT_6) / 10.0, 1.0];
 
+/// Weights of the stages at the end of the step: a quadrature of order 5.
+pub const B: [f64; 3] = [(16.0 - SQRT_6) / 36.0, (16.0 + SQRT_6) / 36.0, 1.0 / 9.0];
+
 /// Real eigenvalue of the inverse of the coefficient matrix.
 pub const GAMMA: f64 = 3.637_834_252_744_496;
 
@@ -107,6 +110,12 @@ mod tests {
             }
         }
         let weights = coefficients().row(2).into_owned();
+        assert!(
+            weights
+                .iter()
+                .zip(B)
+                .all(|(weight, b)| (weight - b).abs() < 1e-16)
+        );
         for q in 4..=5 {
             let integral: f64 = (0..3).map(|i| weights[i] * C[i].powi(q - 1)).sum();
             assert!((integral - 1.0 / f64::from(q)).abs() < 1e-15, "{q}");

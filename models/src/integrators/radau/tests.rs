@@ -78,7 +78,7 @@ fn fixed_steps(ode: &impl Ode, length: f64, parts: u32, y: &mut [f64]) {
             matrices: radau.matrices.get(place),
         };
         radau.stages.solve(ode, attempt, &radau.goal).unwrap();
-        radau.stages.accept(step, y);
+        radau.stages.accept(tau, step, y, &mut ());
     }
 }
 

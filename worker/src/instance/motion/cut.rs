@@ -35,7 +35,8 @@ fn parts(length: f64, instants: &[f64]) -> impl Iterator<Item = Part> {
 }
 
 impl Motion {
-    /// Steps over `interval` under the present signals, cut at `instants`, and reads outputs: those at its end, then interior ones.
+    /// Steps over `interval` under the present signals, cut at `instants`, and reads outputs: those at its end, integrals, then interior
+    /// ones.
     pub(super) fn step_cut(
         &mut self,
         (interval, instants): (Interval, &[f64]),
@@ -58,7 +59,7 @@ impl Motion {
         let interior = instants.len() * self.interior_outputs.len();
         values.clear();
         let at_end = outputs_of(outputs, [&self.coupling_outputs, &self.all_outputs]);
-        values.resize(at_end.len() + interior, 0.0);
+        values.resize(at_end.len() + self.integrated.values() + interior, 0.0);
     }
 
     /// Coupling outputs at the horizon and interior outputs at `instants`, under the present signals and once more for every perturbed
@@ -167,7 +168,7 @@ impl Motion {
         done.map_err(|failure| tell(failure, interval.start, interval.length))
     }
 
-    /// Reads what is wanted at the end of a part to its place among `values`.
+    /// Reads what is wanted at the end of a part to its place among `values`, and adds the integrals over it.
     fn read_part(
         &mut self,
         interval: Interval,
@@ -177,18 +178,20 @@ impl Motion {
     ) -> Result<(), Failure> {
         let at_end = outputs_of(at_end, [&self.coupling_outputs, &self.all_outputs]);
         let interior = &self.interior_outputs;
+        let integrals = at_end.len()..at_end.len() + self.integrated.values();
         let (wanted, first) = match part.instant {
             None => (at_end, 0),
-            Some(instant) => (&interior[..], at_end.len() + instant * interior.len()),
+            Some(instant) => (&interior[..], integrals.end + instant * interior.len()),
         };
         let inputs = self.signals.values_at(part.to);
-        let values = &mut values[first..first + wanted.len()];
+        let told = &mut values[first..first + wanted.len()];
         self.subsystem
-            .outputs(interval.start + part.to, inputs, wanted, values)
-            .map_err(|failure| tell(failure, interval.start, interval.length))
+            .outputs(interval.start + part.to, inputs, wanted, told)
+            .map_err(|failure| tell(failure, interval.start, interval.length))?;
+        self.add_integrals_of_part(interval, [part.from, part.to], &mut values[integrals])
     }
 
-    /// Derivatives at the horizon and at the instants, one for each direction. They are those of steps from the start to each instant.
+    /// Derivatives at the horizon, of integrals, and at the instants, one for each direction. They are those of steps from the start to each instant.
     pub(in crate::instance) fn look_in_directions_cut(
         &mut self,
         base: Base,

@@ -29,7 +29,7 @@ impl Horizon {
 }
 
 impl Motion {
-    /// Coupling outputs at the horizon under the present signals; the committed state stays.
+    /// Coupling outputs at the horizon under the present signals, and integrals over a step; the committed state stays.
     pub(in crate::instance) fn look_ahead(
         &mut self,
         base: Base,
@@ -41,7 +41,11 @@ impl Motion {
         if let Horizon::Step(interval) = horizon {
             self.integrate(interval, sequence)?;
         }
-        self.read(horizon.interval(), v1::OutputSet::Coupling, values)
+        self.read(horizon.interval(), v1::OutputSet::Coupling, values)?;
+        match horizon {
+            Horizon::Step(interval) => self.append_integrals(interval, values),
+            Horizon::Now(_) => Ok(()),
+        }
     }
 
     /// Looks ahead once for every perturbed signal, in place of the present signal of its input.
@@ -63,7 +67,7 @@ impl Motion {
     }
 
     /// Derivatives at the horizon under the present signals, one for each direction: of the outputs `wanted`, otherwise of the
-    /// coupling outputs.
+    /// coupling outputs and of the integrals over a step.
     pub(in crate::instance) fn look_ahead_in_directions(
         &mut self,
         base: Base,
@@ -78,6 +82,7 @@ impl Motion {
             self.go_to(base)?;
             let interval = horizon.interval();
             self.begin_derivative(interval);
+            let has_integrals = wanted.is_none() && interval.length > 0.0;
             let wanted = wanted.unwrap_or(&self.coupling_outputs);
             let values = &mut outputs.values;
             values.clear();
@@ -86,6 +91,9 @@ impl Motion {
             self.subsystem
                 .derivative(interval, inputs, direction, wanted, values)
                 .map_err(|failure| tell(failure, interval.start, interval.length))?;
+            if has_integrals {
+                self.append_integrals(interval, values)?;
+            }
         }
         Ok(())
     }
