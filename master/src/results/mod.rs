@@ -9,6 +9,7 @@ mod outcome;
 mod row;
 mod statistics;
 mod step_degrees;
+mod units;
 mod verdict;
 
 pub use contacts::RecordedContact;
@@ -24,4 +25,5 @@ pub use statistics::{
     StepStatistics, SubsystemStatistics,
 };
 pub use step_degrees::StepDegrees;
+pub(crate) use units::units;
 pub use verdict::{Defect, Verdict};

@@ -7,6 +7,7 @@ mod geometry;
 mod initial;
 mod options;
 mod panels;
+mod partial;
 mod refusal;
 mod signal_loop;
 mod start;
@@ -15,4 +16,5 @@ mod velocities;
 
 pub use discover::multiplier_columns;
 pub use options::{Connect, Options};
+pub use partial::check_some;
 pub use start::describe;

@@ -19,7 +19,7 @@ use crate::methods::{Built, Given, Lacking};
 use crate::policies::columns::{Basis, Columns, Measuring};
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
-use crate::results::{Guard, Mechanism, Row, Statistics, StepDegrees};
+use crate::results::{Guard, Mechanism, Row, Statistics, StepDegrees, units};
 use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, System};
@@ -79,7 +79,8 @@ impl CoSimulation {
         let named = subsystems.map(|own| (own.name(), &own.output_names[..]));
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
-        let row = Row::new(&run.layout, named, shows_step, degrees);
+        let mut row = Row::new(&run.layout, named, shows_step, degrees);
+        row.set_units(units(&row, &run.layout, &models, &joints));
         let points: Vec<_> = scene
             .joints
             .iter()
@@ -202,16 +203,26 @@ fn models_of(scene: &Scene, subsystems: &[Subsystem]) -> Result<Vec<v1::Model>, 
 }
 
 fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem>, RunError> {
-    let connect_one = |subsystem: &scene::Subsystem| {
-        let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
-            subsystem: subsystem.name.clone(),
-            source: Box::new(source),
-        })?;
-        let (name, model) = (&subsystem.name, &subsystem.model);
-        tracing::debug!(subsystem = name, model, "connected");
-        Ok(Subsystem::new(&subsystem.name, connection))
-    };
-    scene.subsystems.iter().map(connect_one).collect()
+    let numbers = 0..scene.subsystems.len();
+    { numbers }
+        .map(|number| connect_one(scene, number, connect))
+        .collect()
+}
+
+/// Connects to the worker of a subsystem.
+pub(super) fn connect_one(
+    scene: &Scene,
+    number: usize,
+    connect: &mut Connect<'_>,
+) -> Result<Subsystem, RunError> {
+    let subsystem = &scene.subsystems[number];
+    let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
+        subsystem: subsystem.name.clone(),
+        source: Box::new(source),
+    })?;
+    let (name, model) = (&subsystem.name, &subsystem.model);
+    tracing::debug!(subsystem = name, model, "connected");
+    Ok(Subsystem::new(&subsystem.name, connection))
 }
 
 fn names(scene: &Scene) -> Vec<&str> {

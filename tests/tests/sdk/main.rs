@@ -14,6 +14,7 @@ mod instances;
 mod instants;
 mod joint_load_mistakes;
 mod joint_loads;
+mod leases;
 mod peer;
 mod repeated_steps;
 mod samples;
