@@ -1,6 +1,7 @@
 //! Why a run ends without a result.
 
 use linchpin_proto::contract::CallError;
+use linchpin_proto::readable::{number, time};
 use linchpin_proto::version::Incompatible;
 
 use crate::connection::{ExitMessage, StartError};
@@ -38,7 +39,7 @@ pub enum RunError {
     /// A call to a worker failed.
     #[error(
         "subsystem \"{subsystem}\" at t = {t} s (H = {step} s): {source}{exit_message}{}",
-        advice(.source)
+        advice(.source), t = time(*t), step = number(*step)
     )]
     Worker {
         /// Name in the scene.
@@ -55,7 +56,8 @@ pub enum RunError {
     /// A worker sent a number that is none.
     #[error(
         "subsystem \"{subsystem}\" sent {value} for output \"{variable}\" in the macro step from t = {t} s \
-         (H = {step} s); the solver has probably diverged: try a smaller coupling.macro_step or tighter solver tolerances"
+         (H = {step} s)",
+        t = time(*t), step = number(*step)
     )]
     NotFinite {
         /// Name in the scene.
@@ -72,7 +74,8 @@ pub enum RunError {
     /// A worker breaks the contract.
     #[error(
         "subsystem \"{subsystem}\" answered with {found} {what} instead of {expected} in the macro step from t = {t} s; \
-         the worker does not keep to the contract linchpin.v1"
+         the worker does not keep to the contract linchpin.v1",
+        t = time(*t)
     )]
     WrongCount {
         /// Name in the scene.
@@ -87,16 +90,16 @@ pub enum RunError {
         t: f64,
     },
     /// Somebody asked the run to stop.
-    #[error("interrupted at t = {t} s")]
+    #[error("interrupted at t = {t} s", t = time(*t))]
     Interrupted {
         /// The macro point that was reached.
         t: f64,
     },
     /// The coupling has come apart.
     #[error(
-        "the run diverged at t = {t} s (H = {step} s): joint \"{joint}\" is open by {opening:e}, the largest motion so \
-         far is {motion:e}; try a smaller coupling.macro_step, a lower coupling.degree, or larger damping of the \
-         constraint (baumgarte: beta = \"2H\", gamma = \"H^2\"; weighted: a = 2, b = 2.6)"
+        "the run diverged at t = {t} s (H = {step} s): joint \"{joint}\" is open by {opening}, the largest motion so far is \
+         {motion}",
+        t = time(*t), step = number(*step), opening = number(*opening), motion = number(*motion)
     )]
     Diverged {
         /// End of the macro step.
@@ -112,9 +115,8 @@ pub enum RunError {
     },
     /// A value has grown beyond all measure.
     #[error(
-        "the run diverged at t = {t} s (H = {step} s): {variable} = {value:e} has grown by more than {growth:e} since \
-         the first steps; try a smaller coupling.macro_step, a lower coupling.degree or index, or a softer \
-         coupling.stiffness if the method has one"
+        "the run diverged at t = {t} s (H = {step} s): {variable} = {value} has grown by more than {growth} since the first steps",
+        t = time(*t), step = number(*step), value = number(*value), growth = number(*growth)
     )]
     Grown {
         /// End of the macro step.
@@ -131,9 +133,10 @@ pub enum RunError {
     /// The corrections of a macro step do not come to an end.
     #[error(
         "the corrections do not converge at t = {t} s (H = {step} s): after {passes} passes {unknown} still changes by \
-         {change:.1e} of its size, allowed is {tolerance:e}; each pass leaves {rate:.2e} of the change before; try {remedy}, \
+         {change} of its size, allowed is {tolerance}; each pass leaves {rate} of the change before; try {remedy}, \
          more passes (coupling.iterations.most), a larger coupling.iterations.tolerance, or \
-         coupling.iterations.otherwise = \"warn\""
+         coupling.iterations.otherwise = \"warn\"",
+        t = time(*t), step = number(*step), change = number(*change), tolerance = number(*tolerance), rate = number(*rate)
     )]
     NotConverged {
         /// Start of the macro step.
@@ -162,8 +165,9 @@ pub enum RunError {
     /// No step is short enough.
     #[error(
         "no macro step from t = {t} s is short enough: with H = {step} s, which is coupling.least_step, the error of {variable} is \
-         estimated as {error:e} times what coupling.tolerance = {tolerance:e} allows; try a smaller coupling.least_step, a larger coupling.tolerance, a larger \
-         coupling.absolute_tolerance if {variable} is small, or tighter solver tolerances"
+         estimated as {error} times what coupling.tolerance = {tolerance} allows; try a smaller coupling.least_step, a larger \
+         coupling.tolerance, a larger coupling.absolute_tolerance if {variable} is small, or tighter solver tolerances",
+        t = time(*t), step = number(*step), error = number(*error), tolerance = number(*tolerance)
     )]
     LeastStep {
         /// Start of the macro step.
@@ -182,7 +186,8 @@ pub enum RunError {
         "{unknown} is not determined at t = {t} s (H = {step} s): the coupling Jacobian is \
          singular on {level} level; a joint is redundant, a coupled body does not react to its load, connected signals \
          depend on each other without delay with a gain of 1 around the loop, or H meets half a period of a subsystem \
-         (aliasing): change coupling.macro_step, the joints or the connections"
+         (aliasing): change coupling.macro_step, the joints or the connections",
+        t = time(*t), step = number(*step)
     )]
     Singular {
         /// First coupling variable without a pivot.
@@ -209,7 +214,6 @@ impl RunError {
 
 fn advice(error: &CallError) -> &'static str {
     match error {
-        error if error.is_recoverable() => "\n  help: a smaller coupling.macro_step may help",
         CallError::Deadline { .. } => {
             "\n  help: the worker hangs, or its step takes longer: run.deadline gives it more time"
         }

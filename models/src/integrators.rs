@@ -9,6 +9,7 @@ mod quadrature;
 pub mod radau;
 pub mod rk4;
 
+use linchpin_proto::readable::number;
 use nalgebra::DMatrix;
 
 pub use quadrature::{Quadrature, gauss};
@@ -41,7 +42,8 @@ pub struct IntegrationError {
 pub enum Cause {
     /// No step was short enough for the error tolerance.
     #[error(
-        "the error of a step of {step} s is {error} times the tolerance, and it cannot be shorter"
+        "the error of a step of {step} s is {error} times the tolerance, and it cannot be shorter",
+        step = number(*step), error = number(*error)
     )]
     Inaccurate {
         /// The shortest step tried (s).
@@ -50,7 +52,7 @@ pub enum Cause {
         error: f64,
     },
     /// No step was short enough for Newton's method.
-    #[error("Newton's method does not converge even in a step of {step} s")]
+    #[error("Newton's method does not converge even in a step of {step} s", step = number(*step))]
     Diverged {
         /// The shortest step tried (s).
         step: f64,

@@ -3,6 +3,9 @@
 //! The gRPC service of a worker and the in-process connection of a master both go through [`Contract`]:
 //! the same messages, only without a socket.
 
+use std::sync::{Arc, OnceLock};
+use std::time::Instant;
+
 use crate::v1::*;
 
 /// One worker as its master sees it: the unary calls of `linchpin.v1.Worker` and one turn of its
@@ -33,6 +36,66 @@ pub trait Contract: Send + Sync {
         request: &ExchangeRequest,
         reply: &mut ExchangeReply,
     ) -> Result<(), CallError>;
+    /// The instances that live there.
+    fn list_instances(
+        &self,
+        _request: &ListInstancesRequest,
+    ) -> Result<ListInstancesReply, CallError> {
+        Err(CallError::Unimplemented {
+            call: "ListInstances",
+        })
+    }
+    /// Says what holds an instance from now on. Servers do; whoever calls without a server holds nothing, and its instances
+    /// stay until [`Contract::terminate`].
+    fn hold(&self, _instance: u64, _by: &Hold) {}
+    /// Ends the instances whose lease is over. Servers call it now and then.
+    fn tidy(&self) {}
+}
+
+/// What keeps instances alive: a connection, or an exchange stream on one. Copies stand for the same one.
+#[derive(Debug, Clone)]
+pub struct Hold {
+    ended: Arc<OnceLock<Instant>>,
+    is_stream: bool,
+}
+
+impl Hold {
+    /// A connection that has begun.
+    pub fn connection() -> Self {
+        Self {
+            ended: Arc::default(),
+            is_stream: false,
+        }
+    }
+
+    /// An exchange stream that has begun.
+    pub fn stream() -> Self {
+        Self {
+            is_stream: true,
+            ..Self::connection()
+        }
+    }
+
+    /// Whether it is a stream, which takes over from the connections.
+    pub fn is_stream(&self) -> bool {
+        self.is_stream
+    }
+
+    /// Says that it has ended.
+    pub fn end(&self) {
+        self.ended.get_or_init(Instant::now);
+    }
+
+    /// When it ended, if it has.
+    pub fn ended(&self) -> Option<Instant> {
+        self.ended.get().copied()
+    }
+}
+
+impl PartialEq for Hold {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.ended, &other.ended)
+    }
 }
 
 /// Why a call has no answer.
@@ -60,6 +123,21 @@ pub enum CallError {
     Lost {
         /// What the transport said.
         reason: String,
+    },
+    /// The reply to another request.
+    #[error(
+        "the reply to {call} is that of {what} {found}, asked was {what} {expected}: the worker, or something on the way to it, \
+         repeats, drops or swaps replies, so that none can be trusted"
+    )]
+    Misplaced {
+        /// Name of the call.
+        call: &'static str,
+        /// What differs: `sequence number` or `instance`.
+        what: &'static str,
+        /// That of the reply.
+        found: u64,
+        /// That of the request.
+        expected: u64,
     },
     /// No answer in time.
     #[error("no answer within {seconds} s")]

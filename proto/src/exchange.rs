@@ -1,5 +1,6 @@
 //! What the parts of an exchange must keep to, whoever carries them out.
 
+use crate::readable::number;
 use crate::v1::{Advance, Failure, Predict};
 use crate::weights::MAX_WEIGHTS;
 
@@ -46,8 +47,11 @@ fn check_inside([field, what]: [&str; 2], offsets: &[f64], step: f64) -> Result<
             return Err(Failure::misuse(
                 field,
                 format!(
-                    "{what} {place} is {offset} s after the start of the step; it must be after {earliest} s and before \
-                     the end of the step at {step} s"
+                    "{what} {place} is {} s after the start of the step; it must be after {} s and before the end of the step \
+                     at {} s",
+                    number(offset),
+                    number(earliest),
+                    number(step)
                 ),
             ));
         }
@@ -79,5 +83,16 @@ pub fn nothing_to_take_back() -> Failure {
         "go_back",
         "the committed state is not the end of an advance, so there is nothing to take back: one advance can be, not two; \
          further back there are Snapshot and Restore",
+    )
+}
+
+/// The refusal of a sequence number that came before with another content.
+pub fn other_content(call: &str, sequence: u64) -> Failure {
+    Failure::misuse(
+        "sequence",
+        format!(
+            "sequence number {sequence} came before, for a {call} with another content; only the same request gets its answer \
+             again, another one takes the next number"
+        ),
     )
 }

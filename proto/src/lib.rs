@@ -4,7 +4,9 @@
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
 //! * [`exchange`]: what the parts of an exchange must keep to;
 //! * [`joint_load`]: the conditions of joints and the loads that they put on markers;
+//! * [`label`]: which request a reply belongs to;
 //! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
+//! * [`readable`]: numbers in messages;
 //! * [`status`]: failures as gRPC statuses;
 //! * [`version`]: which protocol versions understand each other.
 
@@ -13,7 +15,9 @@
 pub mod contract;
 pub mod exchange;
 pub mod joint_load;
+pub mod label;
 pub mod polynomial;
+pub mod readable;
 pub mod status;
 pub mod version;
 pub mod weights;

@@ -30,6 +30,7 @@ pub fn to_status(error: &CallError) -> Status {
             Status::unavailable(error.to_string())
         }
         CallError::Deadline { .. } => Status::deadline_exceeded(error.to_string()),
+        CallError::Misplaced { .. } => Status::data_loss(error.to_string()),
     }
 }
 

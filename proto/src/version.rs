@@ -11,6 +11,9 @@ pub const PROTOCOL: ProtocolVersion = ProtocolVersion { major: 1, minor: 3 };
 /// What a worker may leave out stands in its capabilities and not here: directional derivatives, joint loads, instants, integrals.
 const WHOLE_EXCHANGE: u32 = 1;
 
+/// The first minor number whose masters know that an instance ends some time after what held it.
+const LEASES: u32 = 3;
+
 /// The two sides speak protocols of different major numbers.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
@@ -39,6 +42,11 @@ pub fn negotiate(theirs: Option<&ProtocolVersion>) -> Result<(), Incompatible> {
 /// Whether the exchange stream of a compatible worker knows every part of a request.
 pub fn knows_whole_exchange(theirs: Option<&ProtocolVersion>) -> bool {
     theirs.is_some_and(|version| version.minor >= WHOLE_EXCHANGE)
+}
+
+/// Whether a compatible master knows of leases; the instances of an older one stay until it ends them.
+pub fn knows_leases(theirs: Option<&ProtocolVersion>) -> bool {
+    theirs.is_some_and(|version| version.minor >= LEASES)
 }
 
 fn show(version: &ProtocolVersion) -> String {

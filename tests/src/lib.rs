@@ -20,5 +20,6 @@ pub mod runs;
 pub mod scenes;
 pub mod scripted;
 pub mod spring_pair;
+pub mod tampering;
 pub mod traces;
 pub mod tuning;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::contract::{CallError, Contract, Hold};
 use linchpin_proto::v1::{self, Failure};
 
 /// What the peer does instead of answering truly.
@@ -123,6 +123,21 @@ impl Contract for Scripted {
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
         self.inner.terminate(request)
+    }
+
+    fn list_instances(
+        &self,
+        request: &v1::ListInstancesRequest,
+    ) -> Result<v1::ListInstancesReply, CallError> {
+        self.inner.list_instances(request)
+    }
+
+    fn hold(&self, instance: u64, by: &Hold) {
+        self.inner.hold(instance, by);
+    }
+
+    fn tidy(&self) {
+        self.inner.tidy();
     }
 
     fn exchange(

@@ -4,6 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
+use linchpin::study::Found;
 use linchpin::study::converge::{Quantity, converge};
 use linchpin::study::stability::{Grid, map};
 use linchpin_master::scene::{self, Override, Scene};
@@ -61,7 +62,9 @@ fn errors_of_every_scene() {
             "converge.reference=automatic",
         ];
         let scene = changed(&path, &settings);
-        let cases = converge(&scene, scene.converge.as_ref().unwrap(), &|| ()).unwrap();
+        let cases = converge(&scene, scene.converge.as_ref().unwrap(), &|| ())
+            .and_then(Found::whole)
+            .unwrap();
         let errors = [0, 1].map(|number| cases[0].runs[number].error(Quantity::Position));
         let [coarse, fine] = errors.map(|error| error.unwrap_or(f64::NAN));
         assert!(
@@ -94,7 +97,7 @@ fn stability_of_every_scene() {
         ];
         let scene = changed(&path, &settings);
         let grid = Grid::new(scene.stability.as_ref().unwrap());
-        let maps = map(&scene, &grid, &|| ()).unwrap();
+        let maps = map(&scene, &grid, &|| ()).and_then(Found::whole).unwrap();
         let verdicts: Vec<bool> = { maps[0].cells.iter() }
             .map(|cell| cell.simulated.is_stable())
             .collect();

@@ -1,12 +1,15 @@
 //! The contract around models: one worker with its instances.
 
+mod slot;
+
 use std::any::Any;
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::{Arc, Mutex, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard, TryLockError};
-use std::time::{Duration, Instant};
+use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
+use std::time::Duration;
 
-use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::contract::{CallError, Contract, Hold};
+use linchpin_proto::label::Reply;
 use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1::{self, Failure};
 use linchpin_proto::version::{self, PROTOCOL};
@@ -15,6 +18,7 @@ use crate::instance::{Instance, Signals};
 use crate::joint_load::request::joint_loads;
 use crate::setup::{SetupError, names};
 use crate::{Model, Setup};
+use slot::Slot;
 
 /// What a worker allows its masters.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +29,8 @@ pub struct Limits {
     pub snapshots: usize,
     /// An instance that was not called for this long gives way when the worker is full.
     pub idle: Duration,
+    /// An instance whose stream or connection has ended waits this long for another call.
+    pub lease: Duration,
 }
 
 impl Default for Limits {
@@ -33,6 +39,7 @@ impl Default for Limits {
             instances: 256,
             snapshots: 16,
             idle: Duration::from_secs(900),
+            lease: Duration::from_secs(2),
         }
     }
 }
@@ -45,16 +52,6 @@ pub struct Host {
 }
 
 type Instances = BTreeMap<u64, Arc<Slot>>;
-
-struct Slot {
-    request: v1::InitializeRequest,
-    occupant: Mutex<Occupant>,
-}
-
-struct Occupant {
-    instance: Instance,
-    used: Instant,
-}
 
 impl Host {
     /// A worker for `models` with the default limits.
@@ -152,6 +149,7 @@ impl Host {
         request: &v1::InitializeRequest,
         instance: Instance,
     ) -> Result<v1::InitializeReply, Failure> {
+        self.tidy();
         let mut instances = self.change_table();
         if let Some(slot) = instances.get(&request.instance).cloned() {
             // The same request was repeated while the first one was still being answered.
@@ -167,61 +165,10 @@ impl Host {
                 instances.len()
             )));
         }
-        let reply = instance.initialized();
-        let occupant = Occupant {
-            instance,
-            used: Instant::now(),
-        };
-        let slot = Slot {
-            request: request.clone(),
-            occupant: Mutex::new(occupant),
-        };
+        let slot = Slot::new(request, instance, self.limits.lease);
+        let reply = slot.initialized()?;
         instances.insert(request.instance, Arc::new(slot));
         Ok(reply)
-    }
-}
-
-impl Slot {
-    fn call<T>(
-        &self,
-        call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
-        let mut occupant = self.occupant.lock().map_err(|_| {
-            Failure::fatal(
-                "the solver of this instance panicked in an earlier call; Terminate it and make another",
-            )
-        })?;
-        let answer = call(&mut occupant.instance);
-        occupant.used = Instant::now();
-        answer
-    }
-
-    /// An instance that is computing is not idle, however long that takes.
-    fn is_idle(&self, limit: Duration) -> bool {
-        match self.occupant.try_lock() {
-            Ok(occupant) => occupant.used.elapsed() >= limit,
-            Err(TryLockError::WouldBlock) => false,
-            Err(TryLockError::Poisoned(_)) => true,
-        }
-    }
-
-    /// The answer to an Initialize that is repeated.
-    fn initialize_again(
-        &self,
-        request: &v1::InitializeRequest,
-    ) -> Result<v1::InitializeReply, Failure> {
-        self.call(|instance| {
-            if instance.is_new() && self.request == *request {
-                return Ok(instance.initialized());
-            }
-            Err(Failure::misuse(
-                "instance",
-                format!(
-                    "instance {:#x} exists already; choose another number",
-                    request.instance
-                ),
-            ))
-        })
     }
 }
 
@@ -241,41 +188,49 @@ impl Contract for Host {
         request: &v1::InitializeRequest,
     ) -> Result<v1::InitializeReply, CallError> {
         let existing = self.table().get(&request.instance).cloned();
-        if let Some(slot) = existing {
-            return Ok(slot.initialize_again(request)?);
-        }
-        let instance = without_panic(|| self.build(request))?;
-        Ok(self.place(request, instance)?)
+        let reply = match existing {
+            Some(slot) => slot.initialize_again(request)?,
+            None => {
+                let instance = without_panic(|| self.build(request))?;
+                self.place(request, instance)?
+            }
+        };
+        Ok(reply.to(request))
     }
 
     fn snapshot(&self, request: &v1::SnapshotRequest) -> Result<v1::SnapshotReply, CallError> {
-        self.with_instance(request.instance, |instance| instance.snapshot(request))
+        let reply = self.with_instance(request.instance, |instance| instance.snapshot(request))?;
+        Ok(reply.to(request))
     }
 
     fn restore(&self, request: &v1::RestoreRequest) -> Result<v1::RestoreReply, CallError> {
-        self.with_instance(request.instance, |instance| instance.restore(request))
+        let reply = self.with_instance(request.instance, |instance| instance.restore(request))?;
+        Ok(reply.to(request))
     }
 
     fn step(&self, request: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
-        self.with_instance(request.instance, |instance| instance.step(request))
+        let reply = self.with_instance(request.instance, |instance| instance.step(request))?;
+        Ok(reply.to(request))
     }
 
     fn perturbed_step(
         &self,
         request: &v1::PerturbedStepRequest,
     ) -> Result<v1::PerturbedStepReply, CallError> {
-        self.with_instance(request.instance, |instance| {
+        let reply = self.with_instance(request.instance, |instance| {
             instance.perturbed_step(request)
-        })
+        })?;
+        Ok(reply.to(request))
     }
 
     fn evaluate(&self, request: &v1::EvaluateRequest) -> Result<v1::EvaluateReply, CallError> {
-        self.with_instance(request.instance, |instance| instance.evaluate(request))
+        let reply = self.with_instance(request.instance, |instance| instance.evaluate(request))?;
+        Ok(reply.to(request))
     }
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
         self.change_table().remove(&request.instance);
-        Ok(v1::TerminateReply {})
+        Ok(v1::TerminateReply::default().to(request))
     }
 
     fn exchange(
@@ -286,6 +241,30 @@ impl Contract for Host {
         self.with_instance(request.instance, |instance| {
             instance.exchange(request, reply)
         })
+    }
+
+    fn list_instances(
+        &self,
+        _: &v1::ListInstancesRequest,
+    ) -> Result<v1::ListInstancesReply, CallError> {
+        self.tidy();
+        let table = self.table();
+        let instances = table.values().map(|slot| slot.state());
+        Ok(v1::ListInstancesReply {
+            instances: instances.collect(),
+        })
+    }
+
+    fn hold(&self, instance: u64, by: &Hold) {
+        if let Some(slot) = self.table().get(&instance) {
+            slot.hold(by);
+        }
+    }
+
+    fn tidy(&self) {
+        if self.table().values().any(|slot| slot.is_over()) {
+            self.change_table().retain(|_, slot| !slot.is_over());
+        }
     }
 }
 

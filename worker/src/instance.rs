@@ -5,7 +5,9 @@ mod motion;
 mod signals;
 mod snapshots;
 
+use linchpin_proto::exchange::other_content;
 use linchpin_proto::v1::{self, Failure};
+use prost::Message;
 
 use crate::Subsystem;
 use motion::{Base, Horizon, Inside, Meter, Motion, Sequence, interval};
@@ -22,6 +24,8 @@ pub struct Instance {
     snapshots: Snapshots,
     initialized: v1::InitializeReply,
     sequence: u64,
+    /// The last request, encoded.
+    asked: Vec<u8>,
     answer: Answer,
     exchanged: v1::ExchangeReply,
 }
@@ -47,12 +51,14 @@ impl Instance {
     ) -> Result<Self, Failure> {
         let initialized = v1::InitializeReply {
             tolerance: subsystem.tolerance(),
+            ..v1::InitializeReply::default()
         };
         Ok(Self {
             motion: Motion::new(subsystem, signals, model, request)?,
             snapshots: Snapshots::new(most_snapshots),
             initialized,
             sequence: request.sequence,
+            asked: Vec::new(),
             answer: Answer::Initialize,
             exchanged: v1::ExchangeReply::default(),
         })
@@ -74,15 +80,20 @@ impl Instance {
     ) -> Result<v1::SnapshotReply, Failure> {
         if self.is_repeated(request.sequence)? {
             return match &self.answer {
-                Answer::Snapshot(answer) => answer.clone(),
+                Answer::Snapshot(answer) => {
+                    self.same("Snapshot", request).and_then(|()| answer.clone())
+                }
                 other => Err(other.belongs_not_to("Snapshot")),
             };
         }
         let kept = self
             .snapshots
             .keep(self.motion.committed(), request.replaces);
-        let answer = kept.map(|snapshot| v1::SnapshotReply { snapshot });
-        self.settle(Answer::Snapshot(answer.clone()));
+        let answer = kept.map(|snapshot| v1::SnapshotReply {
+            snapshot,
+            ..v1::SnapshotReply::default()
+        });
+        self.settle(request, Answer::Snapshot(answer.clone()));
         answer
     }
 
@@ -92,27 +103,29 @@ impl Instance {
     ) -> Result<v1::RestoreReply, Failure> {
         if self.is_repeated(request.sequence)? {
             return match &self.answer {
-                Answer::Restore(answer) => answer.clone(),
+                Answer::Restore(answer) => {
+                    self.same("Restore", request).and_then(|()| answer.clone())
+                }
                 other => Err(other.belongs_not_to("Restore")),
             };
         }
         let kept = self.snapshots.find(request.snapshot);
         let answer = kept
             .and_then(|kept| self.motion.restore(kept))
-            .map(|()| v1::RestoreReply {});
-        self.settle(Answer::Restore(answer.clone()));
+            .map(|()| v1::RestoreReply::default());
+        self.settle(request, Answer::Restore(answer.clone()));
         answer
     }
 
     pub(crate) fn step(&mut self, request: &v1::StepRequest) -> Result<v1::StepReply, Failure> {
         if self.is_repeated(request.sequence)? {
             return match &self.answer {
-                Answer::Step(answer) => answer.clone(),
+                Answer::Step(answer) => self.same("Step", request).and_then(|()| answer.clone()),
                 other => Err(other.belongs_not_to("Step")),
             };
         }
         let answer = self.plain_step(request);
-        self.settle(Answer::Step(answer.clone()));
+        self.settle(request, Answer::Step(answer.clone()));
         answer
     }
 
@@ -135,6 +148,7 @@ impl Instance {
         Ok(v1::StepReply {
             outputs: Some(outputs),
             work: Some(meter.stop(&self.motion)),
+            ..v1::StepReply::default()
         })
     }
 
@@ -144,12 +158,14 @@ impl Instance {
     ) -> Result<v1::PerturbedStepReply, Failure> {
         if self.is_repeated(request.sequence)? {
             return match &self.answer {
-                Answer::PerturbedStep(answer) => answer.clone(),
+                Answer::PerturbedStep(answer) => self
+                    .same("PerturbedStep", request)
+                    .and_then(|()| answer.clone()),
                 other => Err(other.belongs_not_to("PerturbedStep")),
             };
         }
         let answer = self.perturbed_steps(request);
-        self.settle(Answer::PerturbedStep(answer.clone()));
+        self.settle(request, Answer::PerturbedStep(answer.clone()));
         answer
     }
 
@@ -186,6 +202,7 @@ impl Instance {
             outputs,
             work: Some(meter.stop(&self.motion)),
             derivatives,
+            ..v1::PerturbedStepReply::default()
         })
     }
 
@@ -214,8 +231,19 @@ impl Instance {
         ))
     }
 
-    fn settle(&mut self, answer: Answer) {
+    /// That a request with the last sequence number is the last request.
+    fn same(&self, call: &str, request: &impl Message) -> Result<(), Failure> {
+        match request.encode_to_vec() == self.asked {
+            true => Ok(()),
+            false => Err(other_content(call, self.sequence)),
+        }
+    }
+
+    fn settle(&mut self, request: &impl Message, answer: Answer) {
         self.sequence = self.sequence.wrapping_add(1);
+        self.asked.clear();
+        // A Vec takes a message of any length.
+        let _ = request.encode(&mut self.asked);
         self.answer = answer;
     }
 }

@@ -1,6 +1,7 @@
 //! The gRPC service around a worker: `linchpin.v1.Worker`, health, reflection.
 
 mod address;
+mod connection;
 mod service;
 
 use std::future::Future;
@@ -11,10 +12,12 @@ use std::time::Duration;
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{FILE_DESCRIPTOR_SET, worker_server::WorkerServer};
 use tokio::net::{TcpListener, UnixListener};
+use tokio_stream::StreamExt;
 use tokio_stream::wrappers::UnixListenerStream;
 use tonic::transport::server::{Router, TcpIncoming};
 
 pub use address::{Address, AddressError};
+use connection::Connection;
 use service::Service;
 
 /// Largest message that is accepted, in bytes.
@@ -22,6 +25,14 @@ pub const MESSAGE_LIMIT: usize = 16 << 20;
 
 /// Time that calls under way have to finish after a shutdown.
 pub const GRACE: Duration = Duration::from_secs(2);
+
+/// Pause between two looks for instances whose lease is over.
+const TIDY: Duration = Duration::from_millis(500);
+
+/// A TCP connection on which nothing moves is asked for a sign of life after this time, and as often after each other, until the
+/// kernel of a machine that is gone has not answered so many times. A master that computes or is stopped is not asked.
+const KEEPALIVE: Duration = Duration::from_secs(10);
+const KEEPALIVE_RETRIES: u32 = 3;
 
 /// Longest path of a Unix socket in bytes.
 const LONGEST_PATH: usize = 107;
@@ -160,7 +171,7 @@ impl Server {
             .add_service(health_service)
             .add_optional_service(reflection())
             .add_service(
-                WorkerServer::new(Service::new(self.contract))
+                WorkerServer::new(Service::new(Arc::clone(&self.contract)))
                     .max_decoding_message_size(MESSAGE_LIMIT)
                     .max_encoding_message_size(MESSAGE_LIMIT),
             );
@@ -179,6 +190,7 @@ impl Server {
         let served = tokio::select! {
             served = run(router, self.listener, shutdown) => served,
             () = overdue(stopped) => Ok(()),
+            () = tidy(&*self.contract) => Ok(()),
         };
         served.map_err(|source| ServeError {
             address: self.address,
@@ -207,6 +219,14 @@ fn check_path(path: &Path) -> Result<(), ListenError> {
     }
 }
 
+/// Lets the contract end instances whose lease is over; never completes.
+async fn tidy(contract: &dyn Contract) {
+    loop {
+        tokio::time::sleep(TIDY).await;
+        contract.tidy();
+    }
+}
+
 /// Completes when the calls under way have had their time since the shutdown. An exchange stream that its master
 /// keeps open would otherwise keep the worker alive.
 async fn overdue(stopped: tokio::sync::oneshot::Receiver<()>) {
@@ -224,13 +244,19 @@ async fn run(
     match listener {
         Listener::Tcp(listener) => {
             // Without TCP_NODELAY a small answer waits for up to 40 ms.
-            let incoming = TcpIncoming::from(listener).with_nodelay(Some(true));
+            let incoming = TcpIncoming::from(listener)
+                .with_nodelay(Some(true))
+                .with_keepalive(Some(KEEPALIVE))
+                .with_keepalive_interval(Some(KEEPALIVE))
+                .with_keepalive_retries(Some(KEEPALIVE_RETRIES));
+            let incoming = incoming.map(|connection| connection.map(Connection::new));
             router
                 .serve_with_incoming_shutdown(incoming, shutdown)
                 .await
         }
         Listener::Unix(listener) => {
             let incoming = UnixListenerStream::new(listener);
+            let incoming = incoming.map(|connection| connection.map(Connection::new));
             router
                 .serve_with_incoming_shutdown(incoming, shutdown)
                 .await

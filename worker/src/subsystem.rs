@@ -26,7 +26,7 @@ impl Interval {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StepFailure {
     /// The solver failed at time `t`; a smaller macro step may help.
-    #[error("{message} at t = {t} s")]
+    #[error("{message} at t = {t} s", t = linchpin_proto::readable::time(*t))]
     Recoverable {
         /// Where the solver stopped.
         t: f64,

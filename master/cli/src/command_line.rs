@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    CommandError, check, converge, describe, report, run, spectrum, stability, worker,
+    CommandError, check, converge, describe, instances, report, run, spectrum, stability, worker,
 };
 use crate::log::Filter;
 
@@ -19,7 +19,8 @@ use crate::log::Filter;
   linchpin check scenes/oscillator.toml
   linchpin worker --listen 127.0.0.1:50051
 
-Exit codes: 0 done, 1 the run failed, 2 the scene or the command line is wrong, 130 interrupted."
+Exit codes: 0 done, 1 the run failed, 2 the scene or the command line is wrong; after a signal that ended it in good order 128
+and its number, as 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP."
 )]
 pub struct Arguments {
     #[command(subcommand)]
@@ -43,6 +44,7 @@ enum Command {
     Check(check::Arguments),
     Worker(worker::Arguments),
     Describe(describe::Arguments),
+    Instances(instances::Arguments),
     Converge(converge::Arguments),
     Stability(stability::Arguments),
     Report(report::Arguments),
@@ -62,6 +64,7 @@ impl Arguments {
             Command::Check(arguments) => check::execute(arguments),
             Command::Worker(arguments) => worker::execute(arguments),
             Command::Describe(arguments) => describe::execute(arguments),
+            Command::Instances(arguments) => instances::execute(arguments),
             Command::Converge(arguments) => converge::execute(arguments),
             Command::Stability(arguments) => stability::execute(arguments),
             Command::Report(arguments) => report::execute(arguments),

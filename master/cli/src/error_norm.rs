@@ -21,8 +21,12 @@ impl ColumnError {
         self.largest = self.largest.max(error.abs());
     }
 
-    /// Root mean square of the error over that of the exact values (NRMS); infinite if the latter is 0.
+    /// Root mean square of the error over that of the exact values (NRMS): 0 where there is no error, infinite where there is one
+    /// of nothing.
     pub fn normalised(&self) -> f64 {
+        if self.squares == 0.0 {
+            return 0.0;
+        }
         (self.squares / self.exact_squares).sqrt()
     }
 
@@ -80,5 +84,35 @@ impl ErrorMeter {
         self.columns
             .iter()
             .map(|(_, name, _, error)| (name.as_str(), error))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn error(points: &[(f64, f64)]) -> ColumnError {
+        let mut error = ColumnError::default();
+        points
+            .iter()
+            .for_each(|(value, exact)| error.add(*value, *exact));
+        error
+    }
+
+    #[test]
+    fn what_is_right_has_no_error_whatever_its_size() {
+        for exact in [0.0, 1e-200, 3.0, 1e200] {
+            assert_eq!(error(&[(exact, exact), (exact, exact)]).normalised(), 0.0);
+        }
+        assert_eq!(ColumnError::default().normalised(), 0.0);
+    }
+
+    #[test]
+    fn an_error_of_nothing_is_relative_to_nothing() {
+        assert_eq!(error(&[(1e-17, 0.0)]).normalised(), f64::INFINITY);
+        assert_eq!(
+            error(&[(3.0, 0.0), (4.0, 5.0)]).normalised(),
+            (10.0 / 25.0_f64).sqrt()
+        );
     }
 }

@@ -6,9 +6,10 @@
 //! * [`closed_form`]: the exact solution of scenes that have one;
 //! * [`error_norm`]: errors of a run;
 //! * [`files`]: tables and texts;
+//! * [`output`]: the folder that a command writes to, and how `run.json` says that it stands;
 //! * [`study`]: many runs of one scene with other settings;
 //! * [`spectra`]: stability, damping and period errors of integration schemes;
-//! * [`interrupt`]: Ctrl-C as a request to stop a run;
+//! * [`interrupt`]: signals as requests to stop;
 //! * [`log`]: what is logged to the error output;
 //! * [`plot`]: the pictures of runs and studies;
 //! * [`animation`]: the moving mechanism as a page of its own.
@@ -26,6 +27,7 @@ pub mod files;
 mod html;
 pub mod interrupt;
 pub mod log;
+pub mod output;
 pub mod plot;
 mod progress;
 pub mod results;

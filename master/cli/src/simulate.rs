@@ -4,7 +4,8 @@ use linchpin_master::results::Mechanism;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
-use linchpin_master::{CoSimulation, RunError};
+use linchpin_master::workers::Subsystem;
+use linchpin_master::{CoSimulation, Interrupt, RunError};
 
 use crate::connect::Connector;
 use crate::story::Story;
@@ -19,6 +20,9 @@ pub trait Recorder {
         Ok(())
     }
 
+    /// Comes before the first row: the workers of the run.
+    fn workers(&mut self, _subsystems: &[Subsystem]) {}
+
     /// The run starts; `row` has the column names and the values at the first macro point.
     fn begin(&mut self, row: &Row) -> Result<(), Self::Error>;
 
@@ -27,6 +31,9 @@ pub trait Recorder {
 
     /// After every macro step, recorded or not: the time that is reached.
     fn progress(&mut self, _t: f64) {}
+
+    /// The run stops early: what it has cost so far.
+    fn stop(&mut self, _statistics: Statistics) {}
 }
 
 /// A run that ended early.
@@ -54,14 +61,36 @@ pub fn simulate<R: Recorder>(
 ) -> Result<Statistics, SimulateError<R::Error>> {
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
     let interrupt = connector.interrupt();
-    // An interrupt makes calls under way fail, and it is the reason that counts.
-    let stopped = |t, error| match interrupt.is_requested() {
+    let mut simulation = CoSimulation::start(scene, &mut connect, options)
+        .map_err(|error| stopped(interrupt, scene.t_start, error))?;
+    recorder.workers(simulation.subsystems());
+    let mut story = Story::begin(scene);
+    let ended = to_its_end(scene, interrupt, &mut simulation, &mut story, recorder);
+    if ended.is_err() {
+        recorder.stop(simulation.statistics());
+    }
+    ended?;
+    if let Some(story) = &story {
+        story.end(&simulation);
+    }
+    Ok(simulation.statistics())
+}
+
+/// An interrupt makes calls under way fail, and it is the reason that counts.
+fn stopped(interrupt: &Interrupt, t: f64, error: RunError) -> RunError {
+    match interrupt.is_requested() {
         true => RunError::Interrupted { t },
         false => error,
-    };
-    let mut simulation = CoSimulation::start(scene, &mut connect, options)
-        .map_err(|error| stopped(scene.t_start, error))?;
-    let mut story = Story::begin(scene);
+    }
+}
+
+fn to_its_end<R: Recorder>(
+    scene: &Scene,
+    interrupt: &Interrupt,
+    simulation: &mut CoSimulation,
+    story: &mut Option<Story>,
+    recorder: &mut R,
+) -> Result<(), SimulateError<R::Error>> {
     if let Some(mechanism) = simulation.mechanism() {
         taken(recorder.mechanism(mechanism))?;
     }
@@ -69,37 +98,44 @@ pub fn simulate<R: Recorder>(
     taken(recorder.record(simulation.row()))?;
     while simulation
         .macro_step()
-        .map_err(|error| stopped(simulation.t(), error))?
+        .map_err(|error| stopped(interrupt, simulation.t(), error))?
     {
-        let is_finished = simulation.is_finished();
-        let every = scene.output.every as u64;
-        for place in 0..simulation.samples() {
-            if let Some((number, row)) = simulation.sample(place)
-                && number.is_multiple_of(every)
-            {
-                taken(recorder.record(row))?;
-            }
-        }
-        let number = match scene.output.interval {
-            Some(_) => simulation.sample_here(),
-            None => Some(simulation.steps_done() as u64),
-        };
-        if is_finished || number.is_some_and(|number| number.is_multiple_of(every)) {
-            taken(recorder.record(simulation.row()))?;
-        }
+        record(scene, simulation, recorder)?;
         recorder.progress(simulation.t());
-        if let Some(story) = &mut story {
-            story.go_on(&simulation);
+        if let Some(story) = story {
+            story.go_on(simulation);
         }
-        if interrupt.is_requested() && !is_finished {
+        if interrupt.is_requested() && !simulation.is_finished() {
             let t = simulation.t();
             return Err(RunError::Interrupted { t }.into());
         }
     }
-    if let Some(story) = &story {
-        story.end(&simulation);
+    Ok(())
+}
+
+/// Records the samples inside the last macro step and the macro point at its end, as far as the scene wants them.
+fn record<R: Recorder>(
+    scene: &Scene,
+    simulation: &mut CoSimulation,
+    recorder: &mut R,
+) -> Result<(), SimulateError<R::Error>> {
+    let is_finished = simulation.is_finished();
+    let every = scene.output.every as u64;
+    for place in 0..simulation.samples() {
+        if let Some((number, row)) = simulation.sample(place)
+            && number.is_multiple_of(every)
+        {
+            taken(recorder.record(row))?;
+        }
     }
-    Ok(simulation.statistics())
+    let number = match scene.output.interval {
+        Some(_) => simulation.sample_here(),
+        None => Some(simulation.steps_done() as u64),
+    };
+    if is_finished || number.is_some_and(|number| number.is_multiple_of(every)) {
+        taken(recorder.record(simulation.row()))?;
+    }
+    Ok(())
 }
 
 fn taken<E>(by_recorder: Result<(), E>) -> Result<(), SimulateError<E>> {

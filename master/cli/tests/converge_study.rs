@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use linchpin::files::write_table;
+use linchpin::study::Found;
 use linchpin::study::StudyError;
 use linchpin::study::converge::{
     CaseRuns, Ending, Quantity, StudyRun, converge, least_squares, neighbouring, rows, summary,
@@ -22,7 +23,7 @@ fn study(more: &str, settings: &[(&str, &str)]) -> Result<Vec<CaseRuns>, StudyEr
     };
     let overrides: Vec<Override> = settings.iter().map(given).collect();
     let scene = scene::parse(&format!("{BASE}{more}"), ORIGIN, &overrides).unwrap();
-    converge(&scene, scene.converge.as_ref().unwrap(), &|| ())
+    converge(&scene, scene.converge.as_ref().unwrap(), &|| ()).and_then(Found::whole)
 }
 
 const CASES: &str = "

@@ -30,7 +30,11 @@ fn oscillator(settings: &[(&str, &str)]) -> Scene {
 fn map_of(settings: &[(&str, &str)]) -> CaseMap {
     let scene = oscillator(&[settings, &AXES].concat());
     let grid = Grid::new(scene.stability.as_ref().unwrap());
-    map(&scene, &grid, &|| ()).unwrap().remove(0)
+    map(&scene, &grid, &|| ())
+        .unwrap()
+        .whole()
+        .unwrap()
+        .remove(0)
 }
 
 /// Methods with the settings of S1 Figs. 7 to 14, and others. With index 3 all is stable, and the thin bands of

@@ -57,7 +57,7 @@ set = { "coupling.method" = "weighted", "coupling.loads" = "master", "coupling.d
 
 fn run(depth: Depth) -> Report {
     let plan = Plan::of_study(&study(STUDY), depth).unwrap();
-    report(&plan, &|| ()).unwrap()
+    report(&plan, &|| ()).whole().unwrap()
 }
 
 /// Every element is closed in its order; attributes and entities are left aside.

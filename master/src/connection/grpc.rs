@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::label::{Labelled, check_label};
 use linchpin_proto::status::to_error;
 use linchpin_proto::v1::worker_client::WorkerClient;
 use linchpin_proto::v1::*;
@@ -72,7 +73,7 @@ impl Grpc {
         })
     }
 
-    fn call<Q: Clone, A, F>(
+    fn call<Q: Clone + Labelled, A: Labelled, F>(
         &self,
         name: &'static str,
         request: &Q,
@@ -83,10 +84,11 @@ impl Grpc {
     {
         let answer = call(self.client.clone(), request.clone());
         let answer = unless(&self.interrupt, within(self.limits.answer, answer));
-        self.runtime
-            .block_on(answer)??
-            .map(Response::into_inner)
-            .map_err(|status| to_error(name, &status))
+        let answer = self.runtime.block_on(answer)??;
+        let reply = answer.map_err(|status| to_error(name, &status))?;
+        let reply = reply.into_inner();
+        check_label(name, request, &reply)?;
+        Ok(reply)
     }
 }
 
@@ -190,6 +192,15 @@ impl Contract for Grpc {
             .block_on(async { within(limit, client.terminate(*request)).await })?
             .map(Response::into_inner)
             .map_err(|status| to_error("Terminate", &status))
+    }
+
+    fn list_instances(
+        &self,
+        request: &ListInstancesRequest,
+    ) -> Result<ListInstancesReply, CallError> {
+        self.call("ListInstances", request, async |mut client, request| {
+            client.list_instances(request).await
+        })
     }
 
     fn exchange(&self, _: &ExchangeRequest, _: &mut ExchangeReply) -> Result<(), CallError> {

@@ -132,7 +132,7 @@ fn advice(error: &CallError) -> &'static str {
         CallError::Deadline { .. } => {
             "; something listens there but keeps silent: is it a worker of the contract linchpin.v1, and is it busy?"
         }
-        CallError::Lost { .. } | CallError::Unimplemented { .. } => {
+        CallError::Lost { .. } | CallError::Unimplemented { .. } | CallError::Misplaced { .. } => {
             "; is it a worker of the contract linchpin.v1?"
         }
         CallError::Failed(_) => "",

@@ -6,6 +6,7 @@ use std::task::Poll;
 use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::label::{Label, Labelled, check_label};
 use linchpin_proto::status::to_error;
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 use tokio::sync::mpsc::{UnboundedReceiver, UnboundedSender, unbounded_channel};
@@ -21,8 +22,20 @@ use super::worker::Connection;
 pub struct ExchangeStream {
     grpc: Grpc,
     requests: Option<UnboundedSender<ExchangeRequest>>,
+    /// The request whose answer is due.
+    posted: Posted,
     replies: Replies,
     polling: Duration,
+}
+
+/// The numbers of a request.
+#[derive(Default)]
+struct Posted(Label);
+
+impl Labelled for Posted {
+    fn label(&self) -> Label {
+        self.0
+    }
 }
 
 enum Replies {
@@ -39,6 +52,7 @@ impl ExchangeStream {
         Self {
             grpc,
             requests: Some(requests),
+            posted: Posted::default(),
             replies: Replies::Unopened(receiver),
             polling: Duration::ZERO,
         }
@@ -68,6 +82,7 @@ impl Connection for ExchangeStream {
             .requests
             .as_ref()
             .ok_or_else(|| lost("the stream is closed"))?;
+        self.posted = Posted(request.label());
         requests
             .send(request.clone())
             .map_err(|_| lost("the worker closed the exchange stream"))?;
@@ -90,6 +105,8 @@ impl Connection for ExchangeStream {
         let replies = std::mem::replace(&mut self.replies, Replies::Broken);
         let answer = self.grpc.runtime.block_on(self.wait(next(replies)))?;
         let (answer, replies) = answer?;
+        // A reply that belongs elsewhere leaves the stream broken: those behind it may belong anywhere.
+        check_label("Exchange", &self.posted, &answer)?;
         self.replies = Replies::Open(replies);
         *reply = answer;
         match reply.failure.take() {

@@ -6,6 +6,7 @@ mod turn;
 use std::sync::{Mutex, PoisonError};
 
 use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::exchange::other_content;
 use linchpin_proto::v1::*;
 
 use place::Place;
@@ -24,10 +25,10 @@ pub struct UnaryTurns<C> {
 #[derive(Default)]
 struct Driven {
     place: Place,
-    last: Option<(u64, Answer)>,
+    last: Option<(ExchangeRequest, Answer)>,
 }
 
-/// The answer to the last sequence number, given again when the number is repeated.
+/// The answer to the last request, given again when that is repeated.
 type Answer = Result<ExchangeReply, Failure>;
 
 impl<C: Contract> UnaryTurns<C> {
@@ -44,10 +45,13 @@ impl<C: Contract> UnaryTurns<C> {
         driven: &mut Driven,
         request: &ExchangeRequest,
     ) -> Result<Answer, CallError> {
-        if let Some((sequence, answer)) = &driven.last
-            && *sequence == request.sequence
+        if let Some((last, answer)) = &driven.last
+            && last.sequence == request.sequence
         {
-            return Ok(answer.clone());
+            return Ok(match last == request {
+                true => answer.clone(),
+                false => Err(other_content("Exchange", request.sequence)),
+            });
         }
         let turn = Turn::new(&self.calls, &mut driven.place);
         let answer = match turn.run(request) {
@@ -55,7 +59,7 @@ impl<C: Contract> UnaryTurns<C> {
             Err(CallError::Failed(failure)) => Err(failure),
             Err(no_answer) => return Err(no_answer),
         };
-        driven.last = Some((request.sequence, answer.clone()));
+        driven.last = Some((request.clone(), answer.clone()));
         Ok(answer)
     }
 }
@@ -100,6 +104,13 @@ impl<C: Contract> Contract for UnaryTurns<C> {
 
     fn terminate(&self, request: &TerminateRequest) -> Result<TerminateReply, CallError> {
         self.calls.terminate(request)
+    }
+
+    fn list_instances(
+        &self,
+        request: &ListInstancesRequest,
+    ) -> Result<ListInstancesReply, CallError> {
+        self.calls.list_instances(request)
     }
 
     fn exchange(

@@ -71,6 +71,13 @@ macro_rules! registry {
                 $($($(#[cfg($own)])? <$name as definition::Definition>::NAME,)*)*
             ];
 
+            /// Its name in a scene.
+            pub fn name(&self) -> &'static str {
+                match self {
+                    $($($(#[cfg($own)])? Self::$name(_) => <$name as definition::Definition>::NAME,)*)*
+                }
+            }
+
             /// Whether it corrects its prediction.
             pub fn corrects(&self) -> bool {
                 match self {

@@ -1,5 +1,7 @@
 //! Why a scene has no macro-step map.
 
+use linchpin_proto::readable::number;
+
 use crate::error::RunError;
 
 /// Why the macro-step map of a scene could not be had.
@@ -36,8 +38,9 @@ pub enum ProbeError {
     },
     /// A subsystem's solver makes errors of the size of its tolerance.
     #[error(
-        "the solver of subsystem \"{subsystem}\" works to a tolerance of {tolerance:e}, so its steps are not linear in the \
-         state; use an exact solver or one with fixed steps"
+        "the solver of subsystem \"{subsystem}\" works to a tolerance of {tolerance}, so its steps are not linear in the \
+         state; use an exact solver or one with fixed steps",
+        tolerance = number(*tolerance)
     )]
     Inexact {
         /// Name in the scene.
@@ -64,8 +67,9 @@ pub enum ProbeError {
     },
     /// The scene does not stay at rest.
     #[error(
-        "the scene is driven: from a state of zeros {column} becomes {value:e} in one macro step; only scenes without loads \
-         from outside have a macro-step map"
+        "the scene is driven: from a state of zeros {column} becomes {value} in one macro step; only scenes without loads \
+         from outside have a macro-step map",
+        value = number(*value)
     )]
     Driven {
         /// Result column.
@@ -76,7 +80,8 @@ pub enum ProbeError {
     /// Two macro steps are not twice the map.
     #[error(
         "the scene is not linear, or a subsystem has states that it does not describe: two macro steps bring {column} to \
-         {found:e} instead of {expected:e}"
+         {found} instead of {expected}",
+        found = number(*found), expected = number(*expected)
     )]
     NotLinear {
         /// Result column.

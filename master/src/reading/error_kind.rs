@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use linchpin_proto::readable::{number, time};
+
 /// Names in the order in which they are offered; shown as a list.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Names(Vec<String>);
@@ -118,7 +120,8 @@ pub enum SceneErrorKind {
     },
     /// A multiple of the macro step that no number can hold.
     #[error(
-        "`{key}` = {formula} is {value:?} for macro_step = {macro_step:?}, which is not a usable number"
+        "`{key}` = {formula} is {} for macro_step = {}, which is not a usable number",
+        number(*value), number(*macro_step)
     )]
     FormulaOutOfRange {
         /// The key.
@@ -241,7 +244,7 @@ pub enum SceneErrorKind {
         example: String,
     },
     /// The end does not lie after the start.
-    #[error("t_end = {t_end:?} s must lie after t_start = {t_start:?} s, by a finite time")]
+    #[error("t_end = {} s must lie after t_start = {} s, by a finite time", time(*t_end), time(*t_start))]
     EndBeforeStart {
         /// Start in s.
         t_start: f64,
@@ -250,7 +253,8 @@ pub enum SceneErrorKind {
     },
     /// A macro step longer than the simulated time.
     #[error(
-        "`{key}` = {macro_step:?} s must be at most the simulated time t_end - t_start = {duration:?} s"
+        "`{key}` = {} s must be at most the simulated time t_end - t_start = {} s",
+        number(*macro_step), time(*duration)
     )]
     StepTooLong {
         /// The key.
@@ -259,6 +263,23 @@ pub enum SceneErrorKind {
         macro_step: f64,
         /// t_end - t_start in s.
         duration: f64,
+    },
+    /// So many steps that no run would end.
+    #[error(
+        "`{key}` = {} s makes {} steps or rows, and at most {} are allowed",
+        number(*step), number(*steps), number(*most)
+    )]
+    TooManySteps {
+        /// The key.
+        key: String,
+        /// Their length in s.
+        step: f64,
+        /// Their number.
+        steps: f64,
+        /// What is allowed.
+        most: f64,
+        /// Length in s of so many steps.
+        least: f64,
     },
     /// A key that says something about variable macro steps, where they do not vary.
     #[error("`{key}` belongs to variable macro steps, which `coupling.tolerance` turns on")]
@@ -276,7 +297,7 @@ pub enum SceneErrorKind {
         key: String,
     },
     /// Least, first and greatest macro step in no order.
-    #[error("`{shorter}` = {least:?} s must be at most `{longer}` = {most:?} s")]
+    #[error("`{shorter}` = {} s must be at most `{longer}` = {} s", number(*least), number(*most))]
     StepsOutOfOrder {
         /// The key of what must be the shorter step.
         shorter: String,
@@ -388,6 +409,9 @@ impl SceneErrorKind {
                     .into(),
             ),
             Self::NotFound { .. } => Some("check the path; it counts from the current folder".into()),
+            Self::TooManySteps { key, least, .. } => {
+                Some(format!("choose {key} of {} s or more, or a shorter time", number(*least)))
+            }
             Self::StepTooLong { .. } => Some("choose a smaller macro step or a later t_end".into()),
             Self::RefusedByWorker { help, .. } => help.clone(),
             Self::RejectOfFixedSteps { .. } => Some(

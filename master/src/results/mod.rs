@@ -10,6 +10,7 @@ mod outcome;
 mod row;
 mod statistics;
 mod step_degrees;
+mod units;
 mod verdict;
 mod warning;
 
@@ -28,5 +29,6 @@ pub use statistics::{
     StepStatistics, SubsystemStatistics,
 };
 pub use step_degrees::StepDegrees;
+pub(crate) use units::units;
 pub use verdict::{Defect, Verdict};
 pub use warning::Warning;

@@ -29,6 +29,7 @@ pub struct OfStep {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     columns: Vec<String>,
+    units: Vec<String>,
     values: Vec<f64>,
     first_outputs: Vec<usize>,
     positions: Vec<usize>,
@@ -101,6 +102,7 @@ impl Row {
         Self {
             values: vec![0.0; columns.len()],
             columns,
+            units: Vec::new(),
             first_outputs,
             positions,
             first_multiplier,
@@ -150,6 +152,28 @@ impl Row {
     /// `error_estimate` where the method has a corrector, the error of the step as a share of the motion so far.
     pub fn columns(&self) -> &[String] {
         &self.columns
+    }
+
+    /// Units of the columns, as the workers give them for their outputs; 1 for numbers without one, empty if a worker does not tell.
+    pub fn units(&self) -> &[String] {
+        &self.units
+    }
+
+    /// Takes the units of the columns.
+    pub(crate) fn set_units(&mut self, units: Vec<String>) {
+        self.units = units;
+    }
+
+    /// The columns of the outputs of a subsystem.
+    pub(crate) fn outputs_of(&self, subsystem: usize) -> &[String] {
+        let first = self.first_outputs[subsystem];
+        let next = self.first_outputs.get(subsystem + 1);
+        &self.columns[first..next.copied().unwrap_or(self.first_multiplier)]
+    }
+
+    /// Whether the length of the macro step is a column.
+    pub(crate) fn shows_step(&self) -> bool {
+        self.shows_step
     }
 
     /// The values, column by column.

@@ -119,7 +119,7 @@ impl Entry<Method> {
         self.keys.iter().chain(corrected).copied()
     }
 
-    fn has(&self, key: &str) -> bool {
+    pub(super) fn has(&self, key: &str) -> bool {
         self.parameters().any(|own| own.name == key)
     }
 

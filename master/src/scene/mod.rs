@@ -5,6 +5,7 @@
 //! place, the value found, what is allowed, and the nearest name. [`warnings`] tells which sound scenes are known to be
 //! unstable.
 
+mod apart;
 mod assign;
 mod connection;
 mod coupling;
@@ -13,6 +14,7 @@ mod joint;
 mod load;
 mod monolithic;
 mod output;
+mod remedy;
 mod resolve;
 mod resolved;
 mod spectrum;
@@ -24,6 +26,8 @@ mod sweeps;
 #[cfg(test)]
 mod tests;
 mod variants;
+mod warning;
+mod warnings;
 mod whole;
 
 pub use crate::reading::{
@@ -44,10 +48,11 @@ pub use spectrum::{
     is_spectrum, load_spectrum, parse_spectrum,
 };
 pub(crate) use stability_rules::highest_stable_degree;
-pub use stability_rules::{Warning, warnings};
 pub use study::{
     Measure, STUDY_KEYS, Settings, StudyFile, StudyScene, StudySetting, is_study, load_study,
     parse_study,
 };
 pub use subsystem::is_worker_address;
+pub use warning::Warning;
+pub use warnings::warnings;
 pub use whole::Scene;

@@ -1,7 +1,7 @@
 //! Reads `[output]`: what is recorded and drawn.
 
 use super::resolved::{Output, Over, Panel};
-use super::step_control::read_step;
+use super::step_control::read_equal_step;
 use crate::reading::key::{Key, POSITIVE, Takes};
 use crate::reading::names::{Registry, report_repeated};
 use crate::reading::reader::{Field, Problems, Section, collect, given};
@@ -17,7 +17,7 @@ pub(super) const KEYS: [Key; 4] = [
     Key::new("interval", Takes::Number(POSITIVE))
         .default("rows at macro points")
         .means(
-            "rows at t_start + n `interval` (s), whatever the macro steps are, and at t_end. \
+            "rows at t_start + n `interval` (s), at most 1e9 of them, whatever the macro steps are, and at t_end. \
              Each is a shorter integration of every subsystem with the inputs of its macro \
              step, so the steps stay as they are, bit by bit; multipliers are read from their \
              curves, with penalty from the springs, and with explicit are those that are held",
@@ -69,7 +69,7 @@ pub(super) fn read(
         None => [const { None }; 4],
     };
     let every = every.map_or(Some(1), |field| field.whole(problems));
-    let interval = given(interval, |field| read_step(field, duration, problems));
+    let interval = given(interval, |field| read_equal_step(field, duration, problems));
     let variables = given(variables, |field| {
         let items = field.items(problems)?;
         report_repeated(&items, "recorded output", problems);

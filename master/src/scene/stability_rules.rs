@@ -1,36 +1,10 @@
 //! Combinations of method, index and degree that are known to be unstable before anything is run.
 
-use std::fmt;
-
 use super::resolved::{Coupling, Degree};
+use super::warning::Warning;
 use super::whole::Scene;
 use crate::methods::Method;
-use crate::reading::place::Place;
 use crate::signal::MAX_DEGREE;
-
-/// A scene that is sound but known to be unstable.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Warning {
-    /// The key it refers to.
-    pub key: &'static str,
-    /// Where that key, or the nearest one around it, is set.
-    pub place: Option<Place>,
-    /// The combination.
-    pub what: String,
-    /// The rule it breaks, with numbers.
-    pub rule: String,
-    /// What to try.
-    pub remedy: String,
-}
-
-impl fmt::Display for Warning {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(place) = &self.place {
-            write!(f, "{place}: ")?;
-        }
-        write!(f, "{}: {}\n  help: {}", self.what, self.rule, self.remedy)
-    }
-}
 
 impl Coupling {
     /// Whether a multiplier at `T_{N+1}` is its mean over the step before: the corrector of degree 0 holds it over the
@@ -44,24 +18,23 @@ impl Coupling {
     }
 }
 
-/// The known instabilities of a scene; empty if none is known.
-pub fn warnings(scene: &Scene) -> Vec<Warning> {
+/// The known instability of a scene.
+pub(super) fn warning(scene: &Scene) -> Option<Warning> {
     if scene.joints.is_empty() {
-        return Vec::new();
+        return None;
     }
     let coupling = &scene.coupling;
     let macro_step = shortest_step(coupling);
     // A degree that follows the estimates does not go beyond the limits.
     let degree = coupling.degree.fixed();
     let instability = coupling.method.parameters().instability(degree, macro_step);
-    let warning = instability.map(|found| Warning {
+    instability.map(|found| Warning {
         key: found.key,
         place: scene.place(found.key),
         what: found.what,
         rule: found.rule,
         remedy: found.remedy,
-    });
-    warning.into_iter().collect()
+    })
 }
 
 /// A variable step that is unstable is repeated with a shorter one, so what counts is the shortest.

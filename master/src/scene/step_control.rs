@@ -10,7 +10,7 @@ pub(super) const MACRO_STEP: Key = Key::new("macro_step", Takes::Number(POSITIVE
     .required("macro_step = 1e-3")
     .default("required without `tolerance`")
     .means(
-        "H, s; at most t_end - t_start. With `tolerance` the first step, by default 1e-4 \
+        "H, s; at most t_end - t_start, and not below 1e-9 of it. With `tolerance` the first step, by default 1e-4 \
          (t_end - t_start). Larger: fewer exchanges, larger errors; much smaller: \
          differences drown in rounding for index 3",
     );
@@ -86,7 +86,7 @@ pub(super) fn read(
         }
         let first = section
             .require(&MACRO_STEP, problems)
-            .and_then(|field| read_step(&field, duration, problems))?;
+            .and_then(|field| read_equal_step(&field, duration, problems))?;
         let control = None;
         return Some(MacroSteps { first, control });
     };
@@ -136,6 +136,31 @@ pub(super) fn read_step(
         }
         _ => Some(macro_step),
     }
+}
+
+/// Most equal steps of a run, and most samples. More would take weeks and fill every disk, so that a unit is mistaken.
+const MOST_STEPS: f64 = 1e9;
+
+/// A step in s of which the whole simulated time consists: as [`read_step`], and not more than [`MOST_STEPS`] of them.
+pub(super) fn read_equal_step(
+    field: &Field<'_>,
+    duration: Option<f64>,
+    problems: &mut Problems<'_>,
+) -> Option<f64> {
+    let step = read_step(field, duration, problems)?;
+    let steps = duration.map_or(0.0, |duration| (duration / step).round());
+    if steps <= MOST_STEPS {
+        return Some(step);
+    }
+    let kind = SceneErrorKind::TooManySteps {
+        key: field.key.clone(),
+        step,
+        steps,
+        most: MOST_STEPS,
+        least: duration.unwrap_or_default() / MOST_STEPS,
+    };
+    field.report(kind, problems);
+    None
 }
 
 /// Of the steps that are given, none is longer than one behind it.

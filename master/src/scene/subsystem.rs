@@ -134,7 +134,8 @@ fn is_network_address(address: &str) -> bool {
     address.parse::<Uri>().is_ok_and(|uri| {
         let has_host = uri.host().is_some_and(|host| !host.is_empty());
         let no_more = uri.path_and_query().is_none_or(|path| path == "/");
-        uri.scheme_str() == Some("http") && has_host && no_more
+        let has_port = uri.port_u16().is_some_and(|port| port > 0);
+        uri.scheme_str() == Some("http") && has_host && has_port && no_more
     })
 }
 

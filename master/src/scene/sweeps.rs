@@ -2,7 +2,7 @@
 
 use super::assign::Assignment;
 use super::resolved::{Axis, Case, ConvergeSettings, Reference, StabilitySettings, toml_number};
-use super::step_control::read_step;
+use super::step_control::read_equal_step;
 use crate::reading::key::{FINITE, Key, POSITIVE, Takes, texts};
 use crate::reading::overrides::Override;
 use crate::reading::reader::{Field, Problems, Section, choice, collect, given};
@@ -144,7 +144,7 @@ pub(super) fn read_macro_steps(
     problems: &mut Problems<'_>,
 ) -> Option<Vec<f64>> {
     let steps = collect(&field.items(problems)?, |item| {
-        read_step(item, duration, problems)
+        read_equal_step(item, duration, problems)
     })?;
     let mut different = steps.clone();
     different.sort_by(f64::total_cmp);

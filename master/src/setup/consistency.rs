@@ -1,5 +1,7 @@
 //! Refuses a scene whose joints are open or turned over at the start.
 
+use linchpin_proto::readable;
+
 use crate::error::RunError;
 use crate::joint::{Level, Motion};
 use crate::layout::Layout;
@@ -57,9 +59,10 @@ fn check_row(
         let residual = condition.value(level, &motion);
         if residual.abs() > CLOSED * condition.extent(level, &motion) {
             let message = format!(
-                "the joint is open at t = {} s: {} is {residual:e}",
-                scene.t_start,
-                layout.column_name(number, &format!("residual.{}", level.name()))
+                "the joint is open at t = {} s: {} is {}",
+                readable::time(scene.t_start),
+                layout.column_name(number, &format!("residual.{}", level.name())),
+                readable::number(residual)
             );
             let help = "choose initial values of the two subsystems that meet the joint";
             let key = format!("joint.{}", scene.joints[row.joint].name);

@@ -134,8 +134,8 @@ pub(super) fn connect_signals(
     let mut driven: Vec<&(usize, String)> = Vec::new();
     let mut connections = Vec::new();
     for connection in &scene.connections {
-        find_variable(scene, connection, "from", models)?;
-        find_variable(scene, connection, "to", models)?;
+        find_variable(scene, connection, "from", &models[connection.from.0])?;
+        find_variable(scene, connection, "to", &models[connection.to.0])?;
         if driven.contains(&&connection.to) {
             let (subsystem, input) = &connection.to;
             let subsystem = &scene.subsystems[*subsystem].name;
@@ -154,18 +154,18 @@ pub(super) fn connect_signals(
     Ok(connections)
 }
 
-fn find_variable(
+/// Checks that the model at an end of a connection has the variable that is named there.
+pub(super) fn find_variable(
     scene: &Scene,
     connection: &Connection,
     end: &str,
-    models: &[v1::Model],
+    model: &v1::Model,
 ) -> Result<(), RunError> {
     let is_source = end == "from";
-    let (subsystem, name) = match is_source {
+    let (_, name) = match is_source {
         true => &connection.from,
         false => &connection.to,
     };
-    let model = &models[*subsystem];
     let (what, variables) = match is_source {
         true => ("output", &model.outputs),
         false => ("input", &model.inputs),
@@ -197,7 +197,8 @@ fn kind_name(marker: &v1::Marker) -> &'static str {
     }
 }
 
-fn marker_of(
+/// The marker of a model that one end of a joint names.
+pub(super) fn marker_of(
     scene: &Scene,
     key: &str,
     side: &Side,

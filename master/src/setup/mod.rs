@@ -8,6 +8,7 @@ mod initial;
 mod inside;
 mod options;
 mod panels;
+mod partial;
 mod refusal;
 mod signal_loop;
 mod start;
@@ -16,4 +17,5 @@ mod velocities;
 
 pub use discover::multiplier_columns;
 pub use options::{Connect, Options};
+pub use partial::check_some;
 pub use start::describe;

@@ -20,7 +20,7 @@ use crate::methods::{Built, Given, Lacking};
 use crate::policies::columns::{Basis, Columns, Measuring};
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
-use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees};
+use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees, units};
 use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, System};
@@ -81,7 +81,9 @@ impl CoSimulation {
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
         let error = run.errors.of_last_step();
-        let row = Row::new(&run.layout, named, shows_step, OfStep { degrees, error });
+        let of_step = OfStep { degrees, error };
+        let mut row = Row::new(&run.layout, named, shows_step, of_step);
+        row.set_units(units(&row, &run.layout, &models, &joints));
         let points: Vec<_> = scene
             .joints
             .iter()
@@ -216,16 +218,26 @@ fn models_of(scene: &Scene, subsystems: &[Subsystem]) -> Result<Vec<v1::Model>, 
 }
 
 fn connect_all(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<Subsystem>, RunError> {
-    let connect_one = |subsystem: &scene::Subsystem| {
-        let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
-            subsystem: subsystem.name.clone(),
-            source: Box::new(source),
-        })?;
-        let (name, model) = (&subsystem.name, &subsystem.model);
-        tracing::debug!(subsystem = name, model, "connected");
-        Ok(Subsystem::new(&subsystem.name, connection))
-    };
-    scene.subsystems.iter().map(connect_one).collect()
+    let numbers = 0..scene.subsystems.len();
+    { numbers }
+        .map(|number| connect_one(scene, number, connect))
+        .collect()
+}
+
+/// Connects to the worker of a subsystem.
+pub(super) fn connect_one(
+    scene: &Scene,
+    number: usize,
+    connect: &mut Connect<'_>,
+) -> Result<Subsystem, RunError> {
+    let subsystem = &scene.subsystems[number];
+    let connection = connect(scene, subsystem).map_err(|source| RunError::Start {
+        subsystem: subsystem.name.clone(),
+        source: Box::new(source),
+    })?;
+    let (name, model) = (&subsystem.name, &subsystem.model);
+    tracing::debug!(subsystem = name, model, "connected");
+    Ok(Subsystem::new(&subsystem.name, connection))
 }
 
 fn names(scene: &Scene) -> Vec<&str> {

@@ -32,6 +32,8 @@ pub enum Ahead {
 pub struct Subsystem {
     name: String,
     connection: Box<dyn Connection>,
+    /// Name of its model; empty before it is initialised.
+    model: String,
     instance: u64,
     sequence: u64,
     /// What the next exchange sends.
@@ -71,6 +73,7 @@ impl Subsystem {
         Self {
             name: name.to_owned(),
             connection,
+            model: String::new(),
             // The master chooses the number; a random one does not meet those of other masters.
             instance: RandomState::new().hash_one(name),
             sequence: 0,
@@ -95,6 +98,11 @@ impl Subsystem {
     /// Name in the scene.
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Name of its model.
+    pub fn model(&self) -> &str {
+        &self.model
     }
 
     /// What it did so far; `unresolved` as [`SubsystemStatistics`] has it.
@@ -151,6 +159,7 @@ impl Subsystem {
         request.instance = self.instance;
         request.sequence = self.sequence;
         request.protocol = Some(PROTOCOL);
+        self.model.clone_from(&request.model);
         self.coupling_outputs = request.coupling_outputs.len();
         self.output_names = [&request.coupling_outputs[..], &request.recorded_outputs].concat();
         self.interior_names.clone_from(&request.interior_outputs);

@@ -1,5 +1,6 @@
 //! Solver `rk4`: fixed steps.
 
+use linchpin_proto::readable::number;
 use linchpin_worker::{Interval, StepFailure};
 
 use super::equation::{Driven, EquationOfMotion};
@@ -69,9 +70,10 @@ pub fn parts(interval: Interval, step: f64) -> Result<u64, StepFailure> {
         return Err(StepFailure::Recoverable {
             t: interval.start,
             message: format!(
-                "a macro step of {} s has more than {MOST_PARTS} internal steps of {step} s; \
+                "a macro step of {} s has more than {MOST_PARTS} internal steps of {} s; \
                  raise solver.step or shorten the macro step",
-                interval.length
+                number(interval.length),
+                number(step)
             ),
         });
     }

@@ -1,5 +1,6 @@
 //! What can be wrong with a composition.
 
+use linchpin_proto::readable::number;
 use linchpin_worker::setup::SetupError;
 
 /// A mistake in a composition. `field` is its place, e.g. `parameters.joint.hinge.a`.
@@ -97,7 +98,8 @@ pub enum CompositionError {
     },
     /// A joint that is not closed at the start.
     #[error(
-        "it is open by {residual:e} {unit} at the start; place the bodies or the points so that it is closed"
+        "it is open by {residual} {unit} at the start; place the bodies or the points so that it is closed",
+        residual = number(*residual)
     )]
     Open {
         /// Place.
@@ -109,7 +111,8 @@ pub enum CompositionError {
     },
     /// A velocity that a joint does not allow.
     #[error(
-        "the velocities at the start violate it by {residual:e} {unit}; give the bodies velocities that it allows"
+        "the velocities at the start violate it by {residual} {unit}; give the bodies velocities that it allows",
+        residual = number(*residual)
     )]
     Moving {
         /// Place.

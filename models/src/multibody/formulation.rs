@@ -1,6 +1,7 @@
 //! What both formulations of the equations of motion give.
 
 use linchpin_proto::joint_load::Wrench;
+use linchpin_proto::readable::number;
 use linchpin_worker::Inputs;
 
 use super::kinematics::{Kinematics, Twist};
@@ -21,7 +22,8 @@ pub struct Dynamics {
 pub enum Unsettled {
     /// The joints stay open.
     #[error(
-        "the joints stay open by {residual:e} m or rad; the internal steps are too long, or the mechanism is in a singular position"
+        "the joints stay open by {residual} m or rad; the internal steps are too long, or the mechanism is in a singular position",
+        residual = number(*residual)
     )]
     Open {
         /// Largest residual.

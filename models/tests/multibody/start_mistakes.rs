@@ -17,7 +17,7 @@ fn joints_must_be_closed_at_the_start() {
         "planar-multibody",
         &open,
         "joint.pin",
-        &["open by 3.0", "e-2 m", "at the start"],
+        &["open by 0.03", " m at the start"],
     );
     assert_spatial(
         &[("joint.cross.second_axis", L(&[0.1, 1.0, 0.0]))],
@@ -27,7 +27,7 @@ fn joints_must_be_closed_at_the_start() {
     assert_planar(
         &[("motion.x.joint", T("pin")), ("motion.x.offset", N(0.3))],
         "motion.x",
-        &["open by", "e-1 rad"],
+        &["open by 0.", " rad"],
     );
     assert_planar(
         &[
@@ -36,7 +36,7 @@ fn joints_must_be_closed_at_the_start() {
             ("motion.x.offset", N(0.7)),
         ],
         "motion.x",
-        &["open by 1.9999", "e-1 m"],
+        &["open by 0.2 m"],
     );
 }
 
@@ -45,9 +45,9 @@ fn velocities_at_the_start_must_be_those_that_joints_allow() {
     assert_planar(
         &[("body.crank.velocity", L(&[0.0, 0.25]))],
         "joint.hinge",
-        &["2.5e-1 m/s", "allows"],
+        &["by 0.25 m/s", "allows"],
     );
-    assert_planar(&[("body.crank.rate", N(2.0))], "joint.hinge", &["1e0 m/s"]);
+    assert_planar(&[("body.crank.rate", N(2.0))], "joint.hinge", &["by 1 m/s"]);
     assert_planar(
         &[("motion.x.joint", T("pin")), ("motion.x.speed", N(0.3))],
         "motion.x",

@@ -79,6 +79,13 @@ impl Worker for Constant {
         not_offered()
     }
 
+    async fn list_instances(
+        &self,
+        _: Request<ListInstancesRequest>,
+    ) -> Result<Response<ListInstancesReply>, Status> {
+        not_offered()
+    }
+
     type ExchangeStream = Replies;
 
     async fn exchange(

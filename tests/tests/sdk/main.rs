@@ -15,6 +15,7 @@ mod instants;
 mod integrals;
 mod joint_load_mistakes;
 mod joint_loads;
+mod leases;
 mod peer;
 mod repeated_steps;
 mod samples;

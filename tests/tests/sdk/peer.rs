@@ -131,15 +131,20 @@ impl Drop for Served {
 /// A worker behind gRPC: unary calls, and exchanges over one stream.
 pub struct Remote {
     grpc: Grpc,
-    stream: Mutex<ExchangeStream>,
+    stream: Mutex<Option<ExchangeStream>>,
 }
 
 impl Remote {
     pub fn connect(address: &str) -> Self {
         Self {
             grpc: grpc(address),
-            stream: Mutex::new(ExchangeStream::new(grpc(address))),
+            stream: Mutex::new(Some(ExchangeStream::new(grpc(address)))),
         }
+    }
+
+    /// Ends the exchange stream with its connection, and no other call.
+    pub fn close_stream(&self) {
+        drop(self.stream.lock().unwrap().take());
     }
 }
 
@@ -197,12 +202,20 @@ impl Contract for Remote {
         self.grpc.terminate(request)
     }
 
+    fn list_instances(
+        &self,
+        request: &v1::ListInstancesRequest,
+    ) -> Result<v1::ListInstancesReply, CallError> {
+        self.grpc.list_instances(request)
+    }
+
     fn exchange(
         &self,
         request: &v1::ExchangeRequest,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), CallError> {
         let mut stream = self.stream.lock().unwrap();
+        let stream = stream.as_mut().unwrap();
         stream.post(request)?;
         stream.collect(reply)
     }

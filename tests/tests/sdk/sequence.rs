@@ -14,6 +14,8 @@ both_ways!(
     only_the_last_and_the_next_number_are_taken,
     a_call_that_failed_fails_again_and_its_number_is_used_up,
     a_number_belongs_to_one_call,
+    a_number_belongs_to_one_content,
+    replies_say_which_request_they_answer,
     initialize_may_be_repeated_until_the_next_call,
 );
 
@@ -144,7 +146,11 @@ fn a_call_that_failed_fails_again_and_its_number_is_used_up(serve: Serve) {
         signals: ramp(),
         ..step
     };
-    assert_eq!(failure(calls.step(&corrected)).unwrap_err(), first);
+    assert_misuse(
+        failure(calls.step(&corrected)),
+        "sequence",
+        &["Step", "another content", &corrected.sequence.to_string()],
+    );
     assert_level(&driver, START);
 
     let perturbed = driver.perturbed_request(STEP, ramp(), flood.clone());
@@ -172,6 +178,103 @@ fn a_call_that_failed_fails_again_and_its_number_is_used_up(serve: Serve) {
 
     let level = driver.step(0.0, STEP, ramp()).unwrap()[0];
     assert!((level - START - RISE).abs() < 1e-15, "{level}");
+}
+
+/// The same number with another content is misuse, and the first request still gets its answer.
+fn a_number_belongs_to_one_content(serve: Serve) {
+    let peer = serve(host());
+    let calls = peer.calls();
+    let mut driver = Driver::initialize(peer.calls(), &tank(5));
+    let words = ["another content"];
+
+    let step = driver.step_request(0.0, STEP, ramp());
+    let first = calls.step(&step).unwrap();
+    let mut others = vec![step.clone(); 4];
+    others[0].t = f64::from_bits(1);
+    others[1].step = STEP * (1.0 + f64::EPSILON);
+    others[2].signals[0].values[1] = -0.0;
+    others[3].outputs = v1::OutputSet::All.into();
+    for other in &others {
+        assert_misuse(failure(calls.step(other)), "sequence", &words);
+    }
+    assert_eq!(calls.step(&step).unwrap(), first);
+    assert_level(&driver, START + RISE);
+
+    let snapshot = driver.snapshot_request(None);
+    let kept = calls.snapshot(&snapshot).unwrap();
+    let other = v1::SnapshotRequest {
+        replaces: Some(kept.snapshot),
+        ..snapshot
+    };
+    assert_misuse(failure(calls.snapshot(&other)), "sequence", &words);
+    let restore = driver.restore_request(kept.snapshot);
+    calls.restore(&restore).unwrap();
+    let other = v1::RestoreRequest {
+        snapshot: kept.snapshot + 1,
+        ..restore
+    };
+    assert_misuse(failure(calls.restore(&other)), "sequence", &words);
+
+    let perturbed = driver.perturbed_request(STEP, ramp(), ramp());
+    let first = calls.perturbed_step(&perturbed).unwrap();
+    let other = v1::PerturbedStepRequest {
+        perturbed: Vec::new(),
+        ..perturbed.clone()
+    };
+    assert_misuse(failure(calls.perturbed_step(&other)), "sequence", &words);
+    assert_eq!(calls.perturbed_step(&perturbed).unwrap(), first);
+
+    let predict = v1::Predict {
+        t: STEP,
+        step: STEP,
+        signals: ramp(),
+        ..v1::Predict::default()
+    };
+    let turn = driver.exchange_request(None, Some(predict));
+    let first = exchange(&*calls, &turn).unwrap();
+    let changes: [fn(&mut v1::ExchangeRequest); 2] =
+        [|own| own.go_back = true, |own| own.predict = None];
+    for change in changes {
+        let mut other = turn.clone();
+        change(&mut other);
+        assert_misuse(exchange(&*calls, &other), "sequence", &words);
+    }
+    assert_eq!(exchange(&*calls, &turn).unwrap(), first);
+    assert_level(&driver, START + RISE);
+}
+
+fn replies_say_which_request_they_answer(serve: Serve) {
+    let peer = serve(host());
+    let calls = peer.calls();
+    let made = calls.initialize(&tank(5)).unwrap();
+    assert_eq!((made.instance, made.sequence), (Some(5), Some(FIRST)));
+    let mut driver = Driver {
+        calls: peer.calls(),
+        instance: 5,
+        sequence: FIRST,
+    };
+    let step = driver.step_request(0.0, STEP, ramp());
+    let reply = calls.step(&step).unwrap();
+    assert_eq!((reply.instance, reply.sequence), (Some(5), Some(FIRST + 1)));
+    let reply = calls.snapshot(&driver.snapshot_request(None)).unwrap();
+    assert_eq!((reply.instance, reply.sequence), (Some(5), Some(FIRST + 2)));
+    let reply = calls
+        .restore(&driver.restore_request(reply.snapshot))
+        .unwrap();
+    assert_eq!((reply.instance, reply.sequence), (Some(5), Some(FIRST + 3)));
+    let perturbed = driver.perturbed_request(STEP, ramp(), ramp());
+    let reply = calls.perturbed_step(&perturbed).unwrap();
+    assert_eq!((reply.instance, reply.sequence), (Some(5), Some(FIRST + 4)));
+    let reply = driver.exchange(None, None).unwrap();
+    assert_eq!((reply.instance, reply.sequence), (Some(5), FIRST + 5));
+    let evaluate = v1::EvaluateRequest {
+        instance: 5,
+        signals: ramp(),
+        ..v1::EvaluateRequest::default()
+    };
+    assert_eq!(calls.evaluate(&evaluate).unwrap().instance, Some(5));
+    let ended = calls.terminate(&v1::TerminateRequest { instance: 5 });
+    assert_eq!(ended.unwrap().instance, Some(5));
 }
 
 fn a_number_belongs_to_one_call(serve: Serve) {

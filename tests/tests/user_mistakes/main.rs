@@ -3,13 +3,17 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod checks;
 mod command_line;
 mod divergence;
 mod listening;
+mod misplaced_replies;
 mod results;
 mod scene_file;
 mod signals;
+mod standing_workers;
 mod starting_workers;
+mod studies;
 mod workers_at_work;
 
 use std::path::PathBuf;

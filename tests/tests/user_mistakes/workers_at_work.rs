@@ -37,7 +37,12 @@ fn stopped(script: impl FnOnce(Scripted) -> Scripted, words: &[&str]) -> Outcome
     let words = [&["\"mass2\"", "t = 0.017", "out/results.csv"], words].concat();
     outcome.fails(1, &words);
     assert_eq!(rows(&workshop).len() as u64, STEP, "{outcome}");
-    assert!(!exists(&workshop, "out/run.json"), "{outcome}");
+    assert!(
+        workshop
+            .read("out/run.json")
+            .contains("\"status\": \"failed\""),
+        "{outcome}"
+    );
     outcome
 }
 

@@ -16,6 +16,7 @@ impl Instance {
         if self.is_repeated(request.sequence)? {
             return match &self.answer {
                 Answer::Exchange(answer) => {
+                    self.same("Exchange", request)?;
                     copy(&self.exchanged, reply);
                     answer.clone()
                 }
@@ -26,7 +27,7 @@ impl Instance {
         if answer.is_ok() {
             copy(reply, &mut self.exchanged);
         }
-        self.settle(Answer::Exchange(answer.clone()));
+        self.settle(request, Answer::Exchange(answer.clone()));
         answer
     }
 
@@ -53,6 +54,7 @@ impl Instance {
     ) -> Result<(), Failure> {
         let mut meter = Meter::start(&self.motion);
         reply.sequence = request.sequence;
+        reply.instance = Some(request.instance);
         reply.failure = None;
         let base = match &request.advance {
             Some(advance) => {
@@ -185,7 +187,7 @@ impl Horizon {
 
 /// Copies an answer into memory that is already there.
 fn copy(from: &v1::ExchangeReply, to: &mut v1::ExchangeReply) {
-    to.sequence = from.sequence;
+    (to.sequence, to.instance) = (from.sequence, from.instance);
     for (from, to) in [
         (&from.advanced, &mut to.advanced),
         (&from.evaluated, &mut to.evaluated),

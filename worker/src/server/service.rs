@@ -3,7 +3,8 @@
 use std::pin::Pin;
 use std::sync::Arc;
 
-use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::contract::{CallError, Contract, Hold};
+use linchpin_proto::label::Labelled;
 use linchpin_proto::status::to_status;
 use linchpin_proto::v1::{self, worker_server::Worker};
 use tokio::runtime::{Handle, RuntimeFlavor};
@@ -20,14 +21,19 @@ impl Service {
         Self { contract }
     }
 
-    fn answer<Q, A>(
+    /// The connection of a call holds the instance that the call names.
+    fn answer<Q: Labelled, A>(
         &self,
         request: Request<Q>,
         call: impl FnOnce(&dyn Contract, &Q) -> Result<A, CallError>,
     ) -> Result<Response<A>, Status> {
-        compute(|| call(&*self.contract, request.get_ref()))
-            .map(Response::new)
-            .map_err(|error| to_status(&error))
+        let answer = compute(|| call(&*self.contract, request.get_ref()));
+        let connection = request.extensions().get::<Hold>();
+        if let (Some(instance), Some(connection)) = (request.get_ref().label().instance, connection)
+        {
+            self.contract.hold(instance, connection);
+        }
+        answer.map(Response::new).map_err(|error| to_status(&error))
     }
 }
 
@@ -102,33 +108,64 @@ impl Worker for Service {
         self.answer(request, |contract, request| contract.terminate(request))
     }
 
+    async fn list_instances(
+        &self,
+        request: Request<v1::ListInstancesRequest>,
+    ) -> Result<Response<v1::ListInstancesReply>, Status> {
+        self.answer(request, |contract, request| {
+            contract.list_instances(request)
+        })
+    }
+
     type ExchangeStream = Exchanges;
 
     async fn exchange(
         &self,
         request: Request<Streaming<v1::ExchangeRequest>>,
     ) -> Result<Response<Self::ExchangeStream>, Status> {
-        let contract = Arc::clone(&self.contract);
+        let mut turns = Turns {
+            contract: Arc::clone(&self.contract),
+            stream: Hold::stream(),
+            held: None,
+        };
         // The inbound stream is mapped straight to the outbound one: a task between them would cost a wake-up.
         let replies = request
             .into_inner()
-            .map(move |request| one_turn(&*contract, &request?));
+            .map(move |request| turns.turn(&request?));
         Ok(Response::new(Box::pin(replies)))
     }
 }
 
-fn one_turn(
-    contract: &dyn Contract,
-    request: &v1::ExchangeRequest,
-) -> Result<v1::ExchangeReply, Status> {
-    let mut reply = v1::ExchangeReply::default();
-    match compute(|| contract.exchange(request, &mut reply)) {
-        Ok(()) => Ok(reply),
-        Err(CallError::Failed(failure)) => Ok(v1::ExchangeReply {
-            sequence: request.sequence,
-            failure: Some(failure),
-            ..v1::ExchangeReply::default()
-        }),
-        Err(error) => Err(to_status(&error)),
+/// The turns of one exchange stream, which ends when this is dropped.
+struct Turns {
+    contract: Arc<dyn Contract>,
+    stream: Hold,
+    /// The instance that the stream holds since its last turn.
+    held: Option<u64>,
+}
+
+impl Turns {
+    fn turn(&mut self, request: &v1::ExchangeRequest) -> Result<v1::ExchangeReply, Status> {
+        if self.held != Some(request.instance) {
+            self.contract.hold(request.instance, &self.stream);
+            self.held = Some(request.instance);
+        }
+        let mut reply = v1::ExchangeReply::default();
+        match compute(|| self.contract.exchange(request, &mut reply)) {
+            Ok(()) => Ok(reply),
+            Err(CallError::Failed(failure)) => Ok(v1::ExchangeReply {
+                sequence: request.sequence,
+                instance: Some(request.instance),
+                failure: Some(failure),
+                ..v1::ExchangeReply::default()
+            }),
+            Err(error) => Err(to_status(&error)),
+        }
+    }
+}
+
+impl Drop for Turns {
+    fn drop(&mut self) {
+        self.stream.end();
     }
 }

@@ -1,12 +1,15 @@
 //! `linchpin check`: validates a scene and starts nothing.
 
 use linchpin_master::CoSimulation;
-use linchpin_master::scene::{Case, Scene, Served, is_spectrum, load_spectrum};
-use linchpin_master::setup::Options;
+use linchpin_master::scene::{
+    Case, Scene, Served, Subsystem, is_spectrum, is_study, load_spectrum, load_study,
+};
+use linchpin_master::setup::{Options, check_some};
 
 use super::CommandError;
 use super::common::{SceneArguments, case_folders, print, warn};
 use crate::connect::{Connector, Place};
+use crate::study::report::{Depth, Plan};
 
 /// Validate a scene without starting anything
 #[derive(Debug, clap::Args)]
@@ -20,10 +23,13 @@ pub struct Arguments {
     scene: SceneArguments,
 }
 
-/// Checks the scene and all its cases, or a file for `linchpin spectrum`.
+/// Checks the scene and all its cases, or a file for `linchpin spectrum` or `linchpin report`.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     if is_spectrum(&arguments.scene.scene) {
         return check_spectrum(&arguments.scene);
+    }
+    if is_study(&arguments.scene.scene) {
+        return check_study(&arguments.scene);
     }
     let scene = arguments.scene.load()?;
     case_folders(&scene)?;
@@ -51,10 +57,29 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 fn check_spectrum(arguments: &SceneArguments) -> Result<(), CommandError> {
     let path = &arguments.scene;
     if !arguments.set.is_empty() {
-        return Err(CommandError::NoSettings { path: path.clone() });
+        return Err(CommandError::NoSettings {
+            path: path.clone(),
+            what: "describes spectra of integration schemes",
+        });
     }
     load_spectrum(path)?;
     print(format_args!("{}: ok\n", path.display()))
+}
+
+/// Checks a study with its scenes and settings.
+fn check_study(arguments: &SceneArguments) -> Result<(), CommandError> {
+    let path = &arguments.scene;
+    if !arguments.set.is_empty() {
+        return Err(CommandError::NoSettings {
+            path: path.clone(),
+            what: "is a study",
+        });
+    }
+    Plan::of_study(&load_study(path)?, Depth::Full)?;
+    print(format_args!(
+        "{}: ok as a study; linchpin report runs it\n",
+        path.display()
+    ))
 }
 
 fn check_case(scene: &Scene, case: &Case) -> Result<(), CommandError> {
@@ -65,19 +90,14 @@ fn check_case(scene: &Scene, case: &Case) -> Result<(), CommandError> {
     check(&scene).map_err(|error| error.in_case(&case.name))
 }
 
-/// Starts the scene with its built-in models in this process; joints only if there are no other models.
+/// Starts the scene in this process; where other workers would be needed, only what can be told of the built-in models.
 fn check(scene: &Scene) -> Result<(), CommandError> {
-    let mut scene = scene.clone();
-    let all = scene.subsystems.len();
-    scene
-        .subsystems
-        .retain(|subsystem| subsystem.served == Served::BuiltIn);
-    if scene.subsystems.len() < all {
-        scene.joints.clear();
-        scene.output.variables = None;
-    }
     let connector = Connector::new(Place::InProcess);
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
-    CoSimulation::start(&scene, &mut connect, &Options::default()).map_err(CommandError::Run)?;
-    Ok(())
+    let is_built_in = |subsystem: &Subsystem| subsystem.served == Served::BuiltIn;
+    let checked = match scene.subsystems.iter().all(is_built_in) {
+        true => CoSimulation::start(scene, &mut connect, &Options::default()).map(|_| ()),
+        false => check_some(scene, is_built_in, &mut connect),
+    };
+    checked.map_err(CommandError::Run)
 }

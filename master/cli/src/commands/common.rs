@@ -4,10 +4,16 @@ use std::fmt::Display;
 use std::fs;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
+use linchpin_master::Interrupt;
+use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
 use linchpin_master::scene::{self, Override, Scene, SceneErrors, warnings};
 
+use linchpin_proto::contract::CallError;
+
 use super::CommandError;
+use crate::output::OutputFolder;
 use crate::progress;
 
 /// A scene with changes.
@@ -24,9 +30,20 @@ pub struct SceneArguments {
 impl SceneArguments {
     /// Reads the scene; warnings about known instabilities go to the error output.
     pub fn load(&self) -> Result<Scene, CommandError> {
-        if scene::is_spectrum(&self.scene) {
-            let path = self.scene.clone();
-            return Err(CommandError::NoScene { path });
+        let other = match &self.scene {
+            file if scene::is_spectrum(file) => Some((
+                "describes spectra of integration schemes",
+                "linchpin spectrum",
+            )),
+            file if scene::is_study(file) => Some(("is a study", "linchpin report")),
+            _ => None,
+        };
+        if let Some((what, command)) = other {
+            return Err(CommandError::NoScene {
+                path: self.scene.clone(),
+                what,
+                command,
+            });
         }
         let scene = scene::load(&self.scene, &self.set)?;
         for warning in warnings(&scene) {
@@ -61,6 +78,61 @@ impl SceneArguments {
     }
 }
 
+/// A running worker that is asked outside of any run.
+#[derive(Debug, Clone, clap::Args)]
+pub struct WorkerArguments {
+    /// Address of the worker: http://HOST:PORT or unix:/PATH
+    #[arg(value_parser = address)]
+    address: String,
+
+    /// Longest time for an answer, in s
+    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = seconds)]
+    timeout: f64,
+}
+
+fn address(text: &str) -> Result<String, String> {
+    if scene::is_worker_address(text) {
+        return Ok(text.to_owned());
+    }
+    Err("it must be http://HOST:PORT or unix:/PATH".into())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
+        _ => Err("it must be a number of seconds greater than 0 and at most 1e6".into()),
+    }
+}
+
+impl WorkerArguments {
+    /// Its address as given.
+    pub fn address(&self) -> &str {
+        &self.address
+    }
+
+    /// Connects to it.
+    ///
+    /// # Errors
+    /// [`CommandError::Start`] if nobody answers there; [`CommandError::System`].
+    pub fn connect(&self) -> Result<Grpc, CommandError> {
+        let limit = Duration::from_secs_f64(self.timeout);
+        let limits = TimeLimits {
+            start: limit,
+            answer: limit,
+        };
+        Grpc::connect(&self.address, limits, new_runtime()?, Interrupt::default())
+            .map_err(|source| self.failed(source))
+    }
+
+    /// That a call to it failed.
+    pub fn failed(&self, source: CallError) -> CommandError {
+        CommandError::Start {
+            address: self.address.clone(),
+            source: Box::new(source.into()),
+        }
+    }
+}
+
 /// Where results go.
 #[derive(Debug, Clone, clap::Args)]
 pub struct OutputArguments {
@@ -74,14 +146,15 @@ pub struct OutputArguments {
 }
 
 impl OutputArguments {
-    /// Makes the folder for results of this name and tries whether files can be written there, before any work is done.
-    pub fn prepare(&self, name: &str) -> Result<PathBuf, CommandError> {
-        let folder = self
-            .out
-            .clone()
-            .unwrap_or_else(|| Path::new("out").join(name));
-        prepare_folder(&folder)?;
-        Ok(folder)
+    /// Makes the folder for results of this name and takes it for this process, before any work is done.
+    ///
+    /// # Errors
+    /// As for [`OutputFolder::claim`].
+    pub fn claim(&self, name: &str) -> Result<OutputFolder, CommandError> {
+        match &self.out {
+            Some(folder) => OutputFolder::claim(folder),
+            None => OutputFolder::claim(&Path::new("out").join(name)),
+        }
     }
 
     /// Whether a progress bar may be shown: not between the lines of a log, which tells the progress itself.
@@ -112,16 +185,6 @@ impl OutputArguments {
         }
         print(format_args!("{summary}results in {}\n", results.display()))
     }
-}
-
-/// Makes a folder that files can be written to.
-pub fn prepare_folder(folder: &Path) -> Result<(), CommandError> {
-    let unwritable = CommandError::unwritable(folder);
-    fs::create_dir_all(folder).map_err(&unwritable)?;
-    let trial = folder.join(".linchpin-trial");
-    fs::write(&trial, "")
-        .and_then(|()| fs::remove_file(&trial))
-        .map_err(unwritable)
 }
 
 /// Removes results of an earlier run that this one would not overwrite if it failed.

@@ -3,6 +3,7 @@
 use super::CommandError;
 use super::common::{OutputArguments, SceneArguments};
 use crate::files::write_table;
+use crate::output::study::{StudyAbout, study};
 use crate::study::converge::{
     converge, draw_errors, draw_work_precision, number_of_runs, rows, summary,
 };
@@ -50,11 +51,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let given = &arguments.scene;
     let settings = given.section(&scene.converge, "converge", flags)?;
     let output = &arguments.output;
-    let folder = output.prepare(&scene.name)?;
+    let folder = output.claim(&scene.name)?;
     let runs = number_of_runs(&scene, settings);
-    let cases = output.with_progress(runs, "runs", |tick| converge(&scene, settings, tick))?;
-    write_table(&folder.join("converge.csv"), rows(&cases))?;
-    draw_errors(&cases, &folder.join("converge"))?;
-    draw_work_precision(&cases, &folder.join("work-precision"))?;
-    output.conclude(&format!("{}\n", summary(&cases)), &folder)
+    let about = StudyAbout::of_scene("converge", &scene, given);
+    study(&folder, about, |told| {
+        let found = output.with_progress(runs, "runs", |tick| converge(&scene, settings, tick))?;
+        let cases = &found.results;
+        told.missing(found.missing);
+        write_table(&told.file("converge.csv"), rows(cases))?;
+        draw_errors(cases, &told.picture("converge"))?;
+        draw_work_precision(cases, &told.picture("work-precision"))?;
+        output.conclude(&format!("{}\n", summary(cases)), folder.path())?;
+        Ok(found.stopped)
+    })
 }

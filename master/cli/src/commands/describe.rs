@@ -1,16 +1,11 @@
 //! `linchpin describe`: what a worker can simulate.
 
-use std::time::Duration;
-
-use linchpin_master::Interrupt;
-use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
-use linchpin_master::scene::is_worker_address;
-use linchpin_proto::contract::{CallError, Contract};
+use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, DescribeReply, Model, Parameter, Variable};
 use linchpin_proto::version::{PROTOCOL, negotiate};
 
 use super::CommandError;
-use super::common::print;
+use super::common::{WorkerArguments, print};
 
 /// Show the models, variables and markers of a running worker
 #[derive(Debug, clap::Args)]
@@ -18,55 +13,22 @@ use super::common::print;
   linchpin describe http://127.0.0.1:50051
   linchpin describe unix:/run/linchpin/mass1.sock")]
 pub struct Arguments {
-    /// Address of the worker: http://HOST:PORT or unix:/PATH
-    #[arg(value_parser = address)]
-    address: String,
-
-    /// Longest time for an answer, in s
-    #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = seconds)]
-    timeout: f64,
-}
-
-fn address(text: &str) -> Result<String, String> {
-    if is_worker_address(text) {
-        return Ok(text.to_owned());
-    }
-    Err("it must be http://HOST:PORT or unix:/PATH".into())
-}
-
-fn seconds(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
-        _ => Err("it must be a number of seconds greater than 0 and at most 1e6".into()),
-    }
+    #[command(flatten)]
+    worker: WorkerArguments,
 }
 
 /// Asks the worker and prints its answer.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let limit = Duration::from_secs_f64(arguments.timeout);
-    let limits = TimeLimits {
-        start: limit,
-        answer: limit,
-    };
-    let failed = |source: CallError| CommandError::Start {
-        address: arguments.address.clone(),
-        source: Box::new(source.into()),
-    };
-    let worker = Grpc::connect(
-        &arguments.address,
-        limits,
-        new_runtime()?,
-        Interrupt::default(),
-    )
-    .map_err(failed)?;
+    let worker = arguments.worker.connect()?;
     let request = v1::DescribeRequest {
         protocol: Some(PROTOCOL),
         ..Default::default()
     };
-    let description = worker.describe(&request).map_err(failed)?;
+    let description = worker.describe(&request);
+    let description = description.map_err(|source| arguments.worker.failed(source))?;
     print(text(&description))?;
     negotiate(description.protocol.as_ref()).map_err(|source| CommandError::Incompatible {
-        address: arguments.address.clone(),
+        address: arguments.worker.address().to_owned(),
         source,
     })
 }

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 
 use linchpin_master::RunError;
 use linchpin_master::connection::StartError;
-use linchpin_master::scene::SceneErrors;
+use linchpin_master::scene::{Coupling, SceneErrors};
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
-use crate::interrupt;
+use crate::interrupt::{self, Request};
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
 use crate::spectra::FailedCurve;
@@ -23,13 +23,15 @@ pub enum CommandError {
     /// The run stopped.
     #[error(transparent)]
     Run(RunError),
-    /// The run stopped, with results up to there.
-    #[error("{source}\n  note: {} has the rows up to there", table.display())]
+    /// The run stopped at some time after its start was asked for.
+    #[error("{source}{}{}", help_line(.help.as_deref()), note(.table.as_deref()))]
     Stopped {
         /// Why.
         source: Box<RunError>,
-        /// The table of results.
-        table: PathBuf,
+        /// What to try.
+        help: Option<String>,
+        /// The table of results up to there, if there are any.
+        table: Option<PathBuf>,
     },
     /// A case of the scene failed.
     #[error("case \"{case}\": {source}")]
@@ -42,6 +44,17 @@ pub enum CommandError {
     /// The standard output takes nothing more.
     #[error("cannot write to the standard output: {0}")]
     Output(std::io::Error),
+    /// Another process writes to the folder.
+    #[error(
+        "{} is in use by {holder}; wait until it ends, or choose another folder with --out",
+        folder.display()
+    )]
+    FolderTaken {
+        /// The folder.
+        folder: PathBuf,
+        /// Who writes there.
+        holder: String,
+    },
     /// A folder or file cannot be written.
     #[error("cannot write to {}: {source}; choose another folder with --out", path.display())]
     Unwritable {
@@ -57,7 +70,7 @@ pub enum CommandError {
     )]
     NothingToAnimate,
     /// A table cannot be written or read back.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}{}", path.display(), advice(.source))]
     Table {
         /// The path.
         path: PathBuf,
@@ -83,23 +96,23 @@ pub enum CommandError {
         /// Flags that do the same.
         flags: &'static str,
     },
-    /// A file for `linchpin spectrum` where a scene is asked for.
-    #[error(
-        "{} describes spectra of integration schemes and no scene; give it to linchpin spectrum",
-        path.display()
-    )]
+    /// A file for another command where a scene is asked for.
+    #[error("{} {what} and no scene; give it to {command}", path.display())]
     NoScene {
         /// The file.
         path: PathBuf,
+        /// What it is or does.
+        what: &'static str,
+        /// The command that takes it.
+        command: &'static str,
     },
     /// Settings of a file that has none.
-    #[error(
-        "--set changes scenes, and {} describes spectra of integration schemes; change the file itself",
-        path.display()
-    )]
+    #[error("--set changes scenes, and {} {what}; change the file itself", path.display())]
     NoSettings {
         /// The file.
         path: PathBuf,
+        /// What it is or does.
+        what: &'static str,
     },
     /// A scheme has no spectrum.
     #[error(transparent)]
@@ -114,12 +127,22 @@ pub enum CommandError {
         path: PathBuf,
     },
     /// No worker at an address.
-    #[error("no description from {address}: {source}")]
+    #[error("no answer from {address}: {source}")]
     Start {
         /// The address.
         address: String,
         /// Why.
         source: Box<StartError>,
+    },
+    /// The worker has no instance of a number.
+    #[error(
+        "{address} has no instance {number:#x}; linchpin instances {address} lists those that there are"
+    )]
+    NoInstance {
+        /// The address.
+        address: String,
+        /// The number.
+        number: u64,
     },
     /// The worker speaks another protocol.
     #[error("{address}: {source}")]
@@ -150,15 +173,23 @@ impl CommandError {
         }
     }
 
-    /// Exit code: 2 for mistakes that a check of the scene finds, [`interrupt::EXIT_CODE`] after an interrupt, 1 for
-    /// everything else that happens later.
+    /// Whether the command ended early since somebody asked for that.
+    pub fn is_interrupt(&self) -> bool {
+        match self {
+            Self::Case { source, .. } => source.is_interrupt(),
+            Self::Run(error) => is_interrupt(error),
+            Self::Stopped { source, .. } => is_interrupt(source),
+            Self::Study(error) => error.is_interrupt(),
+            _ => false,
+        }
+    }
+
+    /// Exit code: 2 for mistakes that a check of the scene finds, after a signal 128 and its number, 1 for everything else that
+    /// happens later.
     pub fn exit_code(&self) -> u8 {
         match self {
             Self::Case { source, .. } => source.exit_code(),
-            Self::Run(RunError::Interrupted { .. }) => interrupt::EXIT_CODE,
-            Self::Stopped { source, .. } if matches!(**source, RunError::Interrupted { .. }) => {
-                interrupt::EXIT_CODE
-            }
+            _ if self.is_interrupt() => interrupt::received().map_or(1, Request::exit_code),
             Self::NothingToStudy { .. }
             | Self::NothingToAnimate
             | Self::NoScene { .. }
@@ -178,15 +209,20 @@ impl CommandError {
         }
     }
 
-    /// What ended a simulation; `table` is where the rows are that it recorded, if there are any.
-    pub fn from_simulation(error: SimulateError<Self>, table: Option<PathBuf>) -> Self {
-        match (error, table) {
-            (SimulateError::Run(source), Some(table)) => Self::Stopped {
+    /// What ended a simulation with this coupling; `table` is where the rows are that it recorded, if there are any.
+    pub fn from_simulation(
+        error: SimulateError<Self>,
+        coupling: &Coupling,
+        table: Option<PathBuf>,
+    ) -> Self {
+        match error {
+            SimulateError::Run(RunError::Scene(errors)) => Self::Scene(errors),
+            SimulateError::Run(source) => Self::Stopped {
+                help: coupling.remedy(&source),
                 source: Box::new(source),
                 table,
             },
-            (SimulateError::Run(source), None) => Self::Run(source),
-            (SimulateError::Record(error), _) => error,
+            SimulateError::Record(error) => error,
         }
     }
 
@@ -199,5 +235,29 @@ impl CommandError {
             case: case.to_owned(),
             source: Box::new(self),
         }
+    }
+}
+
+fn is_interrupt(error: &RunError) -> bool {
+    matches!(error, RunError::Interrupted { .. })
+}
+
+fn help_line(help: Option<&str>) -> String {
+    help.map_or_else(String::new, |help| format!("\n  help: {help}"))
+}
+
+fn note(table: Option<&Path>) -> String {
+    table.map_or_else(String::new, |table| {
+        format!("\n  note: {} has the rows up to there", table.display())
+    })
+}
+
+/// What the system's reason for not writing means.
+fn advice(source: &csv::Error) -> &'static str {
+    match source.kind() {
+        csv::ErrorKind::Io(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
+            "; a limit on the size of files is reached (ulimit -f)"
+        }
+        _ => "",
     }
 }

@@ -5,6 +5,7 @@ pub mod common;
 pub mod converge;
 pub mod describe;
 pub mod error;
+pub mod instances;
 pub mod report;
 pub mod run;
 pub mod spectrum;

@@ -7,8 +7,9 @@ use linchpin_master::scene::{is_study, load_study};
 use super::CommandError;
 use super::common::{OutputArguments, print};
 use crate::files::{write_table, write_text};
+use crate::output::study::{StudyAbout, Told, study};
 use crate::study::StudyError;
-use crate::study::report::{Depth, Picture, Plan, json, page, report};
+use crate::study::report::{Depth, Picture, Plan, Report, json, page, report};
 
 /// Compare coupling methods on scenes: errors against cost, residuals, energy, stability, on one page
 #[derive(Debug, clap::Args)]
@@ -57,23 +58,34 @@ impl Arguments {
 /// Runs the study and writes page and tables.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let plan = arguments.plan()?;
-    let folder = arguments.output.prepare(&plan.name)?;
+    let folder = arguments.output.claim(&plan.name)?;
     let tasks = plan.number_of_tasks();
     let output = &arguments.output;
-    let found = output.with_progress(tasks, "runs", |tick| report(&plan, tick))?;
-    write_table(&folder.join("report.csv"), found.rows())?;
-    let json = json(&found).map_err(StudyError::Json)?;
-    write_text(&folder.join("report.json"), &json)?;
-    let page_path = folder.join("report.html");
-    write_text(&page_path, &page(&found)?)?;
+    let about = StudyAbout::of_files("report", &plan.name, &arguments.files);
+    study(&folder, about, |told| {
+        let found = output.with_progress(tasks, "runs", |tick| report(&plan, tick));
+        told.missing(found.missing);
+        write(&found.results, told)?;
+        if !output.quiet {
+            let page = folder.path().join(PAGE);
+            print(format_args!("report in {}\n", page.display()))?;
+        }
+        Ok(found.stopped)
+    })
+}
+
+const PAGE: &str = "report.html";
+
+fn write(found: &Report, told: &mut Told<'_>) -> Result<(), CommandError> {
+    write_table(&told.file("report.csv"), found.rows())?;
+    let json = json(found).map_err(StudyError::Json)?;
+    write_text(&told.file("report.json"), &json)?;
+    write_text(&told.file(PAGE), &page(found)?)?;
     for scene in &found.scenes {
         for picture in Picture::all(scene) {
-            let stem = folder.join(format!("{}-{}", scene.name, picture.ending));
+            let stem = told.picture(&format!("{}-{}", scene.name, picture.ending));
             picture.chart.write(&stem)?;
         }
-    }
-    if !output.quiet {
-        print(format_args!("report in {}\n", page_path.display()))?;
     }
     Ok(())
 }

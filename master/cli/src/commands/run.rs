@@ -3,15 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use linchpin_master::Interrupt;
-use linchpin_master::scene::Scene;
+use linchpin_master::scene::{Case, Scene};
 use linchpin_master::setup::Options;
+use serde::Serialize;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, case_folders, prepare_folder, print, warn};
+use super::common::{OutputArguments, SceneArguments, case_folders, print, warn};
 use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
-use crate::results::{RunRecorder, RunReport, draw};
+use crate::output::{Ending, OutputFolder, Program, StatusFile};
+use crate::results::{About, RunRecorder, RunReport, draw};
 use crate::simulate::simulate;
 
 /// Run a scene; starts the workers it needs and writes results and plots
@@ -24,7 +26,9 @@ use crate::simulate::simulate;
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
 DIR/results.svg and DIR/results.png. A scene with cases runs them one after the other, each in a folder of its own, and
-draws them together. What a run records stays if it fails; Ctrl-C ends it in good order, with exit code 130.")]
+draws them together. What a run records stays if it fails: run.json says from the first moment on whether the run is under way,
+done, failed or interrupted. Ctrl-C, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU end it in good order, with exit code 128 and
+the number of the signal.")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -63,69 +67,169 @@ impl Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let scene = arguments.scene.load()?;
     let case_folders = case_folders(&scene)?;
-    let folder = arguments.output.prepare(&scene.name)?;
+    let folder = arguments.output.claim(&scene.name)?;
     let job = Job {
         arguments,
+        program: Program::this(),
         interrupt: interrupt::on_signals()?,
-        pictures: folder.join("results"),
+        pictures: folder.path().join("results"),
     };
-    let mut reports = Vec::new();
     if scene.cases.is_empty() {
-        reports.push(job.run(&scene, None, &folder)?);
+        let (report, outcome) = job.run(&scene, None, &folder)?;
+        let drawn = job.draw(&scene, &[report]);
+        outcome.and(drawn)?;
+    } else {
+        job.run_cases(&scene, &case_folders, &folder)?;
     }
-    for (case, own) in scene.cases.iter().zip(case_folders) {
-        let own = folder.join(own);
-        prepare_folder(&own)?;
-        let scene = scene.with_case(case)?;
-        let report = job.run(&scene, Some(&case.name), &own);
-        reports.push(report.map_err(|error| error.in_case(&case.name))?);
-    }
-    if !arguments.no_plots {
-        draw(&scene, &reports, &job.pictures)?;
-    }
-    arguments.output.conclude("", &folder)
+    arguments.output.conclude("", folder.path())
 }
 
 /// What all runs of one command share.
 struct Job<'a> {
     arguments: &'a Arguments,
+    program: Program,
     interrupt: Interrupt,
     /// Path of the pictures without its ending.
     pictures: PathBuf,
 }
 
+/// How a case of a scene stands.
+#[derive(Debug, Clone, Serialize)]
+struct CaseStatus {
+    case: String,
+    folder: String,
+    /// `missing` before it has run, then as in the `run.json` of its folder.
+    status: &'static str,
+}
+
+#[derive(Serialize)]
+struct CaseStatuses {
+    cases: Vec<CaseStatus>,
+}
+
 impl Job<'_> {
+    /// Runs the cases one after the other up to the first that fails, and draws what there is.
+    fn run_cases(
+        &self,
+        scene: &Scene,
+        folders: &[String],
+        folder: &OutputFolder,
+    ) -> Result<(), CommandError> {
+        let about = About::new(scene, &self.arguments.scene, None);
+        let status = StatusFile::new(folder.path(), &self.program, about);
+        status.running()?;
+        let mut statuses: Vec<CaseStatus> = { scene.cases.iter() }
+            .zip(folders)
+            .map(|(case, folder)| CaseStatus {
+                case: case.name.clone(),
+                folder: folder.clone(),
+                status: "missing",
+            })
+            .collect();
+        let mut reports = Vec::new();
+        let mut outcome = Ok(());
+        for (case, own) in scene.cases.iter().zip(&mut statuses) {
+            let ended = self.run_case(scene, case, &folder.path().join(&own.folder));
+            let ended = ended.and_then(|(report, ended)| {
+                reports.push(report);
+                ended
+            });
+            own.status = Ending::of(&ended).word();
+            outcome = ended.map_err(|error| error.in_case(&case.name));
+            if outcome.is_err() {
+                break;
+            }
+        }
+        let drawn = self.draw(scene, &reports);
+        let outcome = outcome.and(drawn);
+        let cases = CaseStatuses { cases: statuses };
+        status.end(&Ending::of(&outcome), Some(cases))?;
+        outcome
+    }
+
+    fn run_case(
+        &self,
+        scene: &Scene,
+        case: &Case,
+        folder: &Path,
+    ) -> Result<(RunReport, Result<(), CommandError>), CommandError> {
+        let folder = OutputFolder::claim(folder)?;
+        let scene = scene.with_case(case)?;
+        self.run(&scene, Some(&case.name), &folder)
+    }
+
+    /// Runs a scene; what it has recorded, and how it ended. The outer error is that of a run that has not begun.
     fn run(
         &self,
         scene: &Scene,
         case: Option<&str>,
-        folder: &Path,
-    ) -> Result<RunReport, CommandError> {
+        folder: &OutputFolder,
+    ) -> Result<(RunReport, Result<(), CommandError>), CommandError> {
         let output = &self.arguments.output;
         let connector = Connector::new(self.arguments.place()).stopped_by(self.interrupt.clone());
-        let report_path = folder.join("run.json");
+        let about = About::new(scene, &self.arguments.scene, case);
+        let status = StatusFile::new(folder.path(), &self.program, about);
+        let page = folder.path().join("animation.html");
         let stale = ["svg", "png"].map(|ending| self.pictures.with_extension(ending));
-        let page = folder.join("animation.html");
-        let stale = [&stale[..], &[report_path.clone(), page.clone()]].concat();
-        let mut recorder = RunRecorder::new(scene, folder, stale, output.shows_progress());
+        let stale = [&stale[..], &[page.clone()]].concat();
+        let is_first = !status.is_there();
+        let shows_progress = output.shows_progress();
+        let mut recorder = RunRecorder::new(scene, folder.path(), stale, status, shows_progress)?;
         let options = Options {
             record_markers: self.arguments.animate,
             ..Options::default()
         };
-        let report = match simulate(scene, &connector, &options, &mut recorder) {
-            Ok(statistics) => recorder.finish(statistics)?,
-            Err(error) => return Err(CommandError::from_simulation(error, recorder.give_up())),
+        let simulated = simulate(scene, &connector, &options, &mut recorder);
+        let flushed = recorder.flush();
+        let (statistics, outcome) = match (simulated, flushed) {
+            (Ok(statistics), Ok(_)) => (Some(statistics), Ok(())),
+            (Ok(statistics), Err(error)) => (Some(statistics), Err(error)),
+            (Err(error), flushed) => {
+                // The run has failed for another reason, which is the one to be told.
+                let table = flushed.ok().flatten().map(Path::to_owned);
+                (
+                    None,
+                    Err(CommandError::from_simulation(error, &scene.coupling, table)),
+                )
+            }
         };
-        report.write_json(scene, &self.arguments.scene, case, &report_path)?;
+        let has_begun = recorder.has_begun();
+        let (report, status) = recorder.into_report(statistics);
+        let outcome = outcome.and_then(|()| self.tell(scene, case, &report, &page));
+        // Results of an earlier run keep what was said of them.
+        if has_begun || is_first {
+            let told = status.end(&Ending::of(&outcome), Some(report.results()));
+            return Ok((report, outcome.and(told)));
+        }
+        Ok((report, outcome))
+    }
+
+    /// The page and the summary of a run that came to its end.
+    fn tell(
+        &self,
+        scene: &Scene,
+        case: Option<&str>,
+        report: &RunReport,
+        page: &Path,
+    ) -> Result<(), CommandError> {
         if let Some(motion) = &report.motion {
-            animation::write(scene, case, motion, &page)?;
+            animation::write(scene, case, motion, page)?;
         }
-        if !output.quiet {
-            print(format_args!("{}\n", report.summary(scene, case)))?;
-        }
-        for warning in report.statistics.warnings() {
+        for warning in report.warnings() {
             warn(warning);
         }
-        Ok(report)
+        if self.arguments.output.quiet {
+            return Ok(());
+        }
+        print(format_args!("{}\n", report.summary(scene, case)))
+    }
+
+    /// The picture of the runs that have recorded something.
+    fn draw(&self, scene: &Scene, reports: &[RunReport]) -> Result<(), CommandError> {
+        let has_rows = |report: &RunReport| !report.traces.is_empty();
+        if self.arguments.no_plots || !reports.iter().any(has_rows) {
+            return Ok(());
+        }
+        draw(scene, reports, &self.pictures)
     }
 }

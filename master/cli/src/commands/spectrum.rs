@@ -7,6 +7,7 @@ use linchpin_master::scene::load_spectrum;
 use super::CommandError;
 use super::common::OutputArguments;
 use crate::files::write_table;
+use crate::output::study::{StudyAbout, study};
 use crate::spectra::picture::{draw_curves, draw_region};
 use crate::spectra::table::{curve_rows, region_rows, summary};
 use crate::spectra::{curves, number_of_points, region};
@@ -33,21 +34,27 @@ pub struct Arguments {
 /// Finds the spectra and writes tables and pictures.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let file = load_spectrum(&arguments.file)?;
-    let folder = arguments.output.prepare(&file.name)?;
+    let folder = arguments.output.claim(&file.name)?;
     let output = &arguments.output;
     let settings = file.region.as_ref();
-    let (found, cells) = output.with_progress(number_of_points(&file), "points", |tick| {
-        let cells = |settings| region(settings, tick);
-        let found = curves(&file, tick)?;
-        Ok::<_, CommandError>((found, settings.map_or(Vec::new(), cells)))
-    })?;
-    if !found.is_empty() {
-        write_table(&folder.join("spectrum.csv"), curve_rows(&found))?;
-        draw_curves(&file, &found, &folder.join("spectrum"))?;
-    }
-    if let Some(settings) = settings {
-        write_table(&folder.join("region.csv"), region_rows(&cells))?;
-        draw_region(settings, &cells, &folder.join("region"))?;
-    }
-    output.conclude(&summary(&found, &cells), &folder)
+    let files = [arguments.file.clone()];
+    let about = StudyAbout::of_files("spectrum", &file.name, &files);
+    study(&folder, about, |told| {
+        let points = number_of_points(&file);
+        let (found, cells) = output.with_progress(points, "points", |tick| {
+            let cells = |settings| region(settings, tick);
+            let found = curves(&file, tick)?;
+            Ok::<_, CommandError>((found, settings.map_or(Vec::new(), cells)))
+        })?;
+        if !found.is_empty() {
+            write_table(&told.file("spectrum.csv"), curve_rows(&found))?;
+            draw_curves(&file, &found, &told.picture("spectrum"))?;
+        }
+        if let Some(settings) = settings {
+            write_table(&told.file("region.csv"), region_rows(&cells))?;
+            draw_region(settings, &cells, &told.picture("region"))?;
+        }
+        output.conclude(&summary(&found, &cells), folder.path())?;
+        Ok(None)
+    })
 }

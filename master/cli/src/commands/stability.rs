@@ -5,6 +5,7 @@ use std::str::FromStr;
 use super::CommandError;
 use super::common::{OutputArguments, SceneArguments};
 use crate::files::write_table;
+use crate::output::study::{StudyAbout, study};
 use crate::study::stability::{Grid, draw_map, map, number_of_points, rows, summary};
 
 /// Map the stability of a scene over two of its settings
@@ -114,12 +115,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let given = &arguments.scene;
     let grid = Grid::new(given.section(&scene.stability, "stability", flags)?);
     let output = &arguments.output;
-    let folder = output.prepare(&scene.name)?;
+    let folder = output.claim(&scene.name)?;
     let points = number_of_points(&scene, &grid);
-    let maps = output.with_progress(points, "points", |tick| map(&scene, &grid, tick))?;
-    write_table(&folder.join("stability.csv"), rows(&maps))?;
-    draw_map(&maps, &grid, &folder.join("stability"))?;
-    output.conclude(&summary(&maps), &folder)
+    let about = StudyAbout::of_scene("stability", &scene, given);
+    study(&folder, about, |told| {
+        let found = output.with_progress(points, "points", |tick| map(&scene, &grid, tick))?;
+        let maps = &found.results;
+        told.missing(found.missing);
+        write_table(&told.file("stability.csv"), rows(maps))?;
+        if maps.iter().any(|map| map.missing == 0) {
+            draw_map(maps, &grid, &told.picture("stability"))?;
+        }
+        output.conclude(&summary(maps), folder.path())?;
+        Ok(found.stopped)
+    })
 }
 
 #[cfg(test)]

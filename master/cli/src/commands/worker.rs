@@ -2,6 +2,7 @@
 
 use std::io::{Read, Write};
 use std::sync::Arc;
+use std::time::Duration;
 
 use linchpin_models::models;
 use linchpin_worker::host::{Host, Limits};
@@ -9,7 +10,7 @@ use linchpin_worker::server::{Address, Reach, Server};
 use tokio::sync::oneshot;
 
 use super::CommandError;
-use crate::interrupt;
+use crate::interrupt::Signals;
 
 /// Serve the built-in models over gRPC
 #[derive(Debug, clap::Args)]
@@ -34,9 +35,20 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = Limits::default().instances as u32, value_parser = clap::value_parser!(u32).range(1..))]
     max_instances: u32,
 
+    /// Time in s that an instance waits for another call when the stream or the connections that held it have ended; then it ends
+    #[arg(long, value_name = "S", default_value_t = Limits::default().lease.as_secs_f64(), value_parser = lease)]
+    lease: f64,
+
     /// End when the standard input is closed, as a master does that started this worker
     #[arg(long)]
     exit_with_stdin: bool,
+}
+
+fn lease(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(seconds),
+        _ => Err("it must be a number of seconds from 0 to 1e6".into()),
+    }
 }
 
 /// Serves until SIGTERM, Ctrl-C or, if asked, the end of the standard input.
@@ -57,6 +69,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
     let limits = Limits {
         instances: arguments.max_instances as usize,
+        lease: Duration::from_secs_f64(arguments.lease),
         ..Limits::default()
     };
     let host = Arc::new(Host::with_limits(models(), limits));
@@ -66,12 +79,12 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         Reach::Local
     };
     let server = Server::bind(host, arguments.listen.clone(), reach).await?;
-    let mut signals = interrupt::signals()?;
+    let mut signals = Signals::watch()?;
     let input_closed = arguments.exit_with_stdin.then(watch_input);
     announce(server.address());
     let shutdown = async move {
         tokio::select! {
-            () = interrupt::any(&mut signals) => {}
+            _ = signals.next() => {}
             () = closed(input_closed) => {}
         }
     };

@@ -67,7 +67,7 @@ pub fn draw(scene: &Scene, reports: &[RunReport], stem: &Path) -> Result<(), Com
 
 /// The curves of one panel.
 fn curves_of(scene: &Scene, reports: &[RunReport], panel: usize) -> Vec<Curve> {
-    let is_single = reports.len() == 1;
+    let is_single = scene.cases.len() <= 1;
     let is_usual = scene.output.panels.is_empty();
     let is_over_time = is_usual || scene.output.panels[panel].over.is_none();
     let mut curves = Vec::new();

@@ -1,6 +1,5 @@
 //! Takes the rows of a run: into the table, the error meter and the traces of the picture.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -8,15 +7,18 @@ use indicatif::ProgressBar;
 use linchpin_master::results::Mechanism;
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
-use serde::Serialize;
+use linchpin_master::workers::Subsystem;
 
+use super::about::{About, ColumnUnit, SubsystemModel};
 use super::figure::traces;
+use super::table::Table;
 use super::{Impacts, RunReport, Trace};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
 use crate::commands::common::remove_stale;
 use crate::error_norm::ErrorMeter;
+use crate::output::StatusFile;
 use crate::progress;
 use crate::simulate::Recorder;
 
@@ -26,7 +28,9 @@ use crate::simulate::Recorder;
 pub struct RunRecorder {
     folder: PathBuf,
     stale: Vec<PathBuf>,
-    table: Option<csv::Writer<File>>,
+    status: StatusFile<About>,
+    table: Option<Table>,
+    statistics: Option<Statistics>,
     errors: Option<ErrorMeter>,
     scene: Scene,
     traces: Vec<Trace>,
@@ -49,13 +53,27 @@ const BAR_LENGTH: u64 = 10_000;
 const REFRESH: Duration = Duration::from_millis(100);
 
 impl RunRecorder {
-    /// A recorder that will write to `folder`. The files `stale` of an earlier run are removed when this one has
-    /// started.
-    pub fn new(scene: &Scene, folder: &Path, stale: Vec<PathBuf>, shows_progress: bool) -> Self {
-        Self {
+    /// A recorder that will write to `folder` and say in `status` how the run stands. The files `stale` of an earlier run are
+    /// removed when this one has started; until then a `run.json` that is there belongs to the results that are there.
+    ///
+    /// # Errors
+    /// [`CommandError::Unwritable`]
+    pub fn new(
+        scene: &Scene,
+        folder: &Path,
+        stale: Vec<PathBuf>,
+        status: StatusFile<About>,
+        shows_progress: bool,
+    ) -> Result<Self, CommandError> {
+        if !status.is_there() {
+            status.running()?;
+        }
+        Ok(Self {
             folder: folder.to_owned(),
             stale,
+            status,
             table: None,
+            statistics: None,
             errors: None,
             scene: scene.clone(),
             traces: Vec::new(),
@@ -63,52 +81,57 @@ impl RunRecorder {
             motion: None,
             bar: progress::bar(BAR_LENGTH, BAR, shows_progress),
             started: Instant::now(),
-        }
+        })
     }
 
-    /// Closes the table.
-    pub fn finish(mut self, statistics: Statistics) -> Result<RunReport, CommandError> {
+    /// Whether rows were recorded, so that the results in the folder are those of this run.
+    pub fn has_begun(&self) -> bool {
+        self.table.is_some()
+    }
+
+    /// Writes the rows that are not written yet; the path of the table, if the run had started.
+    ///
+    /// # Errors
+    /// [`CommandError::Table`]
+    pub fn flush(&self) -> Result<Option<&Path>, CommandError> {
+        let Some(table) = &self.table else {
+            return Ok(None);
+        };
+        table.flush()?;
+        Ok(Some(table.path()))
+    }
+
+    /// What there is to tell, and the file that says how the run stands. `statistics` are those of its end; without them those
+    /// of the macro point at which it stopped.
+    pub fn into_report(self, statistics: Option<Statistics>) -> (RunReport, StatusFile<About>) {
         self.bar.finish_and_clear();
-        if let Some(table) = &mut self.table {
-            let path = self.folder.join(TABLE);
-            table.flush().map_err(CommandError::unwritable(&path))?;
-        }
-        Ok(RunReport {
-            statistics,
+        let report = RunReport {
+            statistics: statistics.or(self.statistics),
             errors: self.errors,
             traces: self.traces,
             impacts: self.impacts,
             motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
-        })
+        };
+        (report, self.status)
     }
 
-    /// Closes the table of a run that failed, and tells where it is; `None` if the run had not started.
-    pub fn give_up(mut self) -> Option<PathBuf> {
-        self.bar.finish_and_clear();
-        // The run has failed for another reason, which is the one to be told.
-        self.table.as_mut()?.flush().ok()?;
-        Some(self.folder.join(TABLE))
-    }
-
-    fn open_table(&mut self) -> Result<(), CommandError> {
+    fn open_table(&mut self, row: &Row) -> Result<(), CommandError> {
         for path in &self.stale {
             remove_stale(path)?;
         }
-        let path = self.folder.join(TABLE);
-        let file = File::create(&path).map_err(CommandError::unwritable(&path))?;
-        self.table = Some(csv::Writer::from_writer(file));
+        let columns = row.columns().iter().zip(row.units());
+        let columns = columns.map(|(name, unit)| ColumnUnit {
+            name: name.clone(),
+            unit: unit.clone(),
+        });
+        self.status.about.columns = columns.collect();
+        // The file of an earlier run says how that ended, which is not so for the table that is begun.
+        self.status.running()?;
+        let table = Table::create(&self.folder.join(TABLE))?;
+        table.add(row.columns())?;
+        self.table = Some(table);
         Ok(())
-    }
-
-    fn write(&mut self, row: impl Serialize) -> Result<(), CommandError> {
-        let Some(table) = &mut self.table else {
-            return Ok(());
-        };
-        table.serialize(row).map_err(|source| CommandError::Table {
-            path: self.folder.join(TABLE),
-            source,
-        })
     }
 }
 
@@ -125,8 +148,19 @@ impl Recorder for RunRecorder {
         self.impacts = Some(Impacts::of(&self.scene, row));
         let closed_form = ClosedForm::of(&self.scene);
         self.errors = closed_form.map(|closed_form| ErrorMeter::new(closed_form, row));
-        self.open_table()?;
-        self.write(row.columns())
+        self.open_table(row)
+    }
+
+    fn workers(&mut self, subsystems: &[Subsystem]) {
+        let models = subsystems.iter().map(|subsystem| SubsystemModel {
+            subsystem: subsystem.name().to_owned(),
+            model: subsystem.model().to_owned(),
+        });
+        self.status.about.models = models.collect();
+    }
+
+    fn stop(&mut self, statistics: Statistics) {
+        self.statistics = Some(statistics);
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
@@ -142,8 +176,11 @@ impl Recorder for RunRecorder {
         if let Some(motion) = &mut self.motion {
             motion.record(row.values());
         }
-        // Shortest text that reads back to the same bits.
-        self.write(row.values())
+        match &self.table {
+            // Shortest text that reads back to the same bits.
+            Some(table) => table.add(row.values()),
+            None => Ok(()),
+        }
     }
 
     fn progress(&mut self, t: f64) {

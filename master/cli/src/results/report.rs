@@ -3,24 +3,19 @@
 mod contacts;
 
 use std::fmt::Write;
-use std::path::Path;
 
-use linchpin_master::results::{DegreeStatistics, MomentsOf, Statistics, StepStatistics};
-use linchpin_master::run::settings::Settings;
-use linchpin_master::scene::{Degree, Method, Scene, StepControl};
+use linchpin_master::results::{DegreeStatistics, MomentsOf, Statistics, StepStatistics, Warning};
+use linchpin_master::scene::Scene;
 use serde::Serialize;
 
 use super::{Impacts, Trace};
 use crate::animation::Motion;
-use crate::commands::CommandError;
-use crate::commands::common::SceneArguments;
-use crate::error_norm::ErrorMeter;
-use crate::files::write_text;
+use crate::error_norm::{ColumnError, ErrorMeter};
 
-/// What a finished run tells.
+/// What a run tells.
 pub struct RunReport {
-    /// Counts, times, residuals.
-    pub statistics: Statistics,
+    /// Counts, times, residuals; those up to where it stopped, and none if it has not started.
+    pub statistics: Option<Statistics>,
     /// Errors against the closed form, if the scene has one.
     pub errors: Option<ErrorMeter>,
     /// Series for the picture.
@@ -33,25 +28,12 @@ pub struct RunReport {
     pub wall_time: f64,
 }
 
+/// The numbers of a run in `run.json`.
 #[derive(Serialize)]
-struct Json<'a> {
-    linchpin: &'static str,
-    scene: &'a str,
-    case: Option<&'a str>,
-    scene_file: String,
-    scene_text: &'a str,
-    overrides: Vec<String>,
-    t_start: f64,
-    t_end: f64,
-    macro_step: f64,
-    step_control: Option<StepControl>,
-    degree: Degree,
-    exchanged_degree: Degree,
-    method: Method,
-    /// Absent for methods without a corrector, which leave nothing to decide.
-    settings: Option<Settings>,
+struct Results<'a> {
     wall_time: f64,
-    statistics: &'a Statistics,
+    /// Absent if the run has not started.
+    statistics: Option<&'a Statistics>,
     /// What speaks against the results.
     warnings: Vec<String>,
     errors: Vec<ColumnErrorJson<'a>>,
@@ -60,71 +42,36 @@ struct Json<'a> {
 #[derive(Serialize)]
 struct ColumnErrorJson<'a> {
     column: &'a str,
-    /// Root mean square over that of the exact solution; absent if the exact solution is 0.
+    /// Root mean square over that of the exact solution; absent if the exact solution is 0 and this is not.
     normalised: Option<f64>,
     largest: f64,
 }
 
-/// The constants that decided about the macro steps.
-fn settings(scene: &Scene) -> Option<Settings> {
-    let coupling = &scene.coupling;
-    let varies = coupling.step_control.is_some();
-    let follow = coupling.has_automatic_degree();
-    let corrects = coupling.method.corrects();
-    corrects.then(|| Settings::new(varies, follow))
-}
-
 impl RunReport {
-    /// Writes `run.json`.
-    pub fn write_json(
-        &self,
-        scene: &Scene,
-        arguments: &SceneArguments,
-        case: Option<&str>,
-        path: &Path,
-    ) -> Result<(), CommandError> {
-        let json = Json {
-            linchpin: env!("CARGO_PKG_VERSION"),
-            scene: &scene.name,
-            case,
-            scene_file: arguments.scene.display().to_string(),
-            scene_text: scene.text(),
-            overrides: arguments.set.iter().map(ToString::to_string).collect(),
-            t_start: scene.t_start,
-            t_end: scene.t_end,
-            macro_step: scene.coupling.macro_step,
-            step_control: scene.coupling.step_control,
-            degree: scene.coupling.degree,
-            exchanged_degree: scene.coupling.exchanged_degree,
-            method: scene.coupling.method,
-            settings: settings(scene),
+    /// The numbers for `run.json`.
+    pub fn results(&self) -> impl Serialize {
+        let errors = self.errors.iter().flat_map(ErrorMeter::errors);
+        Results {
             wall_time: self.wall_time,
-            statistics: &self.statistics,
-            warnings: self
-                .statistics
-                .warnings()
-                .iter()
-                .map(ToString::to_string)
-                .collect(),
-            errors: self
-                .errors
-                .iter()
-                .flat_map(ErrorMeter::errors)
-                .map(as_json)
-                .collect(),
-        };
-        let text = serde_json::to_string_pretty(&json).map_err(std::io::Error::from);
-        write_text(
-            path,
-            &(text.map_err(CommandError::unwritable(path))? + "\n"),
-        )
+            statistics: self.statistics.as_ref(),
+            warnings: self.warnings().iter().map(ToString::to_string).collect(),
+            errors: errors.map(as_json).collect(),
+        }
+    }
+
+    /// What speaks against the results.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let statistics = self.statistics.as_ref();
+        statistics.map_or_else(Vec::new, Statistics::warnings)
     }
 
     /// A summary of about a dozen lines.
     pub fn summary(&self, scene: &Scene, case: Option<&str>) -> String {
         let mut text = String::new();
-        // Writing to a string does not fail.
-        let _ = self.write_summary(scene, case, &mut text);
+        if let Some(statistics) = &self.statistics {
+            // Writing to a string does not fail.
+            let _ = self.write_summary(scene, case, statistics, &mut text);
+        }
         text
     }
 
@@ -132,9 +79,9 @@ impl RunReport {
         &self,
         scene: &Scene,
         case: Option<&str>,
+        statistics: &Statistics,
         text: &mut String,
     ) -> std::fmt::Result {
-        let statistics = &self.statistics;
         let case = case.map(|case| format!(" [{case}]")).unwrap_or_default();
         let t_end = scene.t_end;
         let speed = (t_end - scene.t_start) / self.wall_time;
@@ -146,8 +93,8 @@ impl RunReport {
         for (column, error) in self.errors.iter().flat_map(ErrorMeter::errors) {
             writeln!(
                 text,
-                "  error of {column:<22} {:>10.3e} relative (rms), {:>10.3e} largest",
-                error.normalised(),
+                "  error of {column:<22} {:>10} relative (rms), {:>10.3e} largest",
+                relative(error),
                 error.largest()
             )?;
         }
@@ -331,13 +278,20 @@ fn write_degrees(degrees: &DegreeStatistics, text: &mut String) -> std::fmt::Res
     Ok(())
 }
 
-fn as_json<'a>(
-    (column, error): (&'a str, &'a crate::error_norm::ColumnError),
-) -> ColumnErrorJson<'a> {
+/// The relative error of a column for a reader; `-` if there is no size that it could be relative to.
+fn relative(error: &ColumnError) -> String {
     let normalised = error.normalised();
+    if normalised.is_finite() {
+        format!("{normalised:.3e}")
+    } else {
+        "-".to_owned()
+    }
+}
+
+fn as_json<'a>((column, error): (&'a str, &'a ColumnError)) -> ColumnErrorJson<'a> {
     ColumnErrorJson {
         column,
-        normalised: normalised.is_finite().then_some(normalised),
+        normalised: Some(error.normalised()).filter(|norm| norm.is_finite()),
         largest: error.largest(),
     }
 }

@@ -2,6 +2,7 @@
 
 use linchpin_master::RunError;
 use linchpin_master::scene::SceneErrors;
+use linchpin_proto::readable::number;
 
 /// Why a study has no result.
 #[derive(Debug, thiserror::Error)]
@@ -31,8 +32,9 @@ pub enum StudyError {
     },
     /// The run that all others are compared with diverged.
     #[error(
-        "{case}: without closed form and [monolithic] the scene as its file has it, with H = {macro_step:e} s, is the \
-         reference, but it diverged: {reason}"
+        "{case}: without closed form and [monolithic] the scene as its file has it, with H = {macro_step} s, is the \
+         reference, but it diverged: {reason}",
+        macro_step = number(*macro_step)
     )]
     ReferenceDiverged {
         /// Which case, for the message.
@@ -63,6 +65,15 @@ pub enum StudyError {
 }
 
 impl StudyError {
+    /// Whether somebody asked the study to end.
+    pub fn is_interrupt(&self) -> bool {
+        let source = match self {
+            Self::Run { source, .. } => source,
+            _ => return false,
+        };
+        matches!(source, RunError::Interrupted { .. })
+    }
+
     /// The mistakes in the scene, if it is these.
     pub fn scene_errors(&self) -> Option<&SceneErrors> {
         match self {

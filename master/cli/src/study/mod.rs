@@ -10,6 +10,7 @@ mod columns;
 pub mod converge;
 mod error;
 mod errors;
+mod found;
 mod orders;
 mod reference;
 pub mod report;
@@ -18,3 +19,4 @@ mod runs;
 pub mod stability;
 
 pub use error::StudyError;
+pub use found::Found;

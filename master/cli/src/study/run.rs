@@ -29,9 +29,17 @@ pub enum Ending {
     Stopped(String),
     /// The scene cannot have this method; why.
     Refused(String),
+    /// It was not made, since the study ended early.
+    Missing,
 }
 
 impl StudyRun {
+    /// One that was not made.
+    pub fn missing(macro_step: f64) -> Self {
+        let ending = Ending::Missing;
+        Self { macro_step, ending }
+    }
+
     /// The error of a quantity, if the run came to its end and the reference knows the quantity.
     pub fn error(&self, quantity: Quantity) -> Option<f64> {
         self.ending.error(quantity)

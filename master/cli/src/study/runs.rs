@@ -11,6 +11,7 @@ use linchpin_proto::v1::Model;
 use super::StudyError;
 use super::columns::{self, Column, places, sum};
 use crate::connect::{Connector, Place};
+use crate::interrupt;
 use crate::simulate::{Recorder, SimulateError, simulate};
 
 /// A variant of the scene that is studied on its own.
@@ -95,7 +96,11 @@ pub fn simulated(
     scene: &Scene,
     recorder: &mut impl Recorder<Error = Infallible>,
 ) -> Result<Result<Statistics, String>, RunError> {
-    let connector = Connector::new(Place::InProcess);
+    let interrupt = interrupt::of_process();
+    if interrupt.is_requested() {
+        return Err(RunError::Interrupted { t: scene.t_start });
+    }
+    let connector = Connector::new(Place::InProcess).stopped_by(interrupt);
     match simulate(scene, &connector, &Options::default(), recorder) {
         Ok(statistics) => Ok(Ok(statistics)),
         Err(SimulateError::Run(error)) => divergence(error).map(Err),

@@ -37,6 +37,7 @@ impl<'a, C: Contract> Turn<'a, C> {
     pub fn run(mut self, request: &ExchangeRequest) -> Result<ExchangeReply, CallError> {
         let mut reply = ExchangeReply {
             sequence: request.sequence,
+            instance: Some(request.instance),
             ..ExchangeReply::default()
         };
         match self.carry_out(request, &mut reply) {

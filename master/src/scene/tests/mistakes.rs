@@ -242,7 +242,7 @@ fn the_end_lies_after_the_start_and_holds_a_macro_step() {
     assert_mistake(
         &[("t_end = 1.0", "t_start = 1.5\nt_end = 1.0")],
         "t_end",
-        &["t_end = 1.0", "t_start = 1.5"],
+        &["t_end = 1 s", "t_start = 1.5"],
     );
     assert_mistake(
         &[("t_end = 1.0", "t_start = -1e308\nt_end = 1e308")],

@@ -151,7 +151,7 @@ fn studies_have_sensible_values() {
         (
             "[converge]\nmacro_steps = [1e-2, 2]",
             "macro_steps",
-            ["macro_steps[1]", "2.0 s"],
+            ["macro_steps[1]", "2 s"],
         ),
         (
             "[converge]\nmacro_steps = [1e-2, 1e-3]\nreference = 'closed'",

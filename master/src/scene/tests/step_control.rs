@@ -78,7 +78,7 @@ fn mistakes_of_variable_steps_are_told() {
         (
             "tolerance = 1e-4\ngreatest_step = 7",
             &[
-                "`coupling.greatest_step` = 7.0 s",
+                "`coupling.greatest_step` = 7 s",
                 "at most the simulated time",
             ],
         ),

@@ -138,6 +138,7 @@ impl Motion {
         Ok(v1::EvaluateReply {
             outputs: Some(v1::Outputs { values }),
             derivatives,
+            ..v1::EvaluateReply::default()
         })
     }
 }

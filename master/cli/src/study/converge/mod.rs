@@ -5,16 +5,18 @@ mod table;
 
 use linchpin_master::results::Statistics;
 use linchpin_master::scene::{self, ConvergeSettings, Scene};
+use linchpin_proto::readable::number;
 use rayon::prelude::*;
 
-use super::StudyError;
 use super::columns::{Column, names, record};
 use super::errors::RunErrors;
 pub use super::errors::{Errors, Quantity};
+use super::found::each;
 pub use super::orders::{least_squares, neighbouring};
 use super::reference::Reference;
 pub use super::run::{Ending, StudyRun};
 use super::runs::{Variant, watched, with_macro_step};
+use super::{Found, StudyError};
 pub use picture::{draw_errors, draw_work_precision};
 pub use table::{rows, summary};
 
@@ -36,12 +38,12 @@ pub fn number_of_runs(scene: &Scene, settings: &ConvergeSettings) -> usize {
 ///
 /// # Errors
 /// [`StudyError`]: a macro step does not fit the scene, the reference that is asked for does not exist, a worker failed. A
-/// run that diverges is no error.
+/// run that diverges is no error. What happens once there is something to compare with ends the study early, with the runs up to then.
 pub fn converge(
     scene: &Scene,
     settings: &ConvergeSettings,
     tick: &(dyn Fn() + Sync),
-) -> Result<Vec<CaseRuns>, StudyError> {
+) -> Result<Found<Vec<CaseRuns>>, StudyError> {
     let mut macro_steps = settings.macro_steps.clone();
     macro_steps.sort_by(f64::total_cmp);
     let studies = Variant::all(scene)?
@@ -53,12 +55,14 @@ pub fn converge(
         .iter()
         .flat_map(|&step| studies.iter().map(move |study| (study, step)))
         .collect();
-    let run_one = |(study, macro_step): &(&Study, f64)| study.run(*macro_step, tick);
-    let runs = points
-        .par_iter()
-        .with_max_len(1)
-        .map(run_one)
-        .collect::<Result<Vec<_>, _>>()?;
+    let (runs, stopped) = each(&points, |(study, step)| study.run(*step, tick));
+    let name =
+        |(study, step): &(&Study, f64)| format!("{}, H = {} s", study.variant.name, number(*step));
+    let missing = points.iter().zip(&runs).filter(|(_, run)| run.is_none());
+    let missing = missing.map(|(point, _)| name(point)).collect();
+    let runs: Vec<StudyRun> = { points.iter().zip(runs) }
+        .map(|((_, macro_step), run)| run.unwrap_or_else(|| StudyRun::missing(*macro_step)))
+        .collect();
     let of_case = |(number, study): (usize, &Study)| CaseRuns {
         case: study.variant.name.clone(),
         runs: runs[number..]
@@ -68,7 +72,11 @@ pub fn converge(
             .cloned()
             .collect(),
     };
-    Ok(studies.iter().enumerate().map(of_case).collect())
+    Ok(Found {
+        results: studies.iter().enumerate().map(of_case).collect(),
+        missing,
+        stopped,
+    })
 }
 
 /// One case and what its runs are compared with.

@@ -48,7 +48,7 @@ fn records(case: &CaseRuns) -> Vec<Record<'_>> {
         Record {
             case: &case.case,
             macro_step: run.macro_step,
-            outcome: statistics.map_or("diverged", |_| "done"),
+            outcome: outcome(&run.ending),
             nrms_position: errors[0],
             nrms_velocity: errors[1],
             nrms_state: errors[2],
@@ -68,6 +68,14 @@ fn records(case: &CaseRuns) -> Vec<Record<'_>> {
         }
     };
     case.runs.iter().enumerate().map(record).collect()
+}
+
+fn outcome(ending: &Ending) -> &'static str {
+    match ending {
+        Ending::Done { .. } => "done",
+        Ending::Stopped(_) | Ending::Refused(_) => "diverged",
+        Ending::Missing => "missing",
+    }
 }
 
 fn largest_residual(statistics: &Statistics, level: &str) -> Option<f64> {
@@ -106,7 +114,9 @@ fn write_case(text: &mut String, case: &CaseRuns) -> std::fmt::Result {
     for (number, run) in case.runs.iter().enumerate() {
         write!(text, "{:>10}", format!("{:.3e}", run.macro_step))?;
         match &run.ending {
-            Ending::Stopped(_) | Ending::Refused(_) => writeln!(text, "  diverged")?,
+            ending @ (Ending::Stopped(_) | Ending::Refused(_) | Ending::Missing) => {
+                writeln!(text, "  {}", outcome(ending))?;
+            }
             Ending::Done { statistics, .. } => {
                 for (&quantity, orders) in quantities.iter().zip(&orders) {
                     let error = run.error(quantity).map(|error| format!("{error:.3e}"));

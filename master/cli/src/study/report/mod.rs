@@ -15,7 +15,7 @@ mod trace;
 
 use linchpin_master::scene::Measure;
 
-use super::StudyError;
+use super::Found;
 use super::errors::Quantity;
 pub use super::run::{Ending, StudyRun};
 use super::stability::{CaseMap, Grid};
@@ -79,19 +79,44 @@ pub struct SettingReport {
 
 /// Makes all runs of a plan; `tick` is called after each run and each point of a map.
 ///
-/// # Errors
-/// [`StudyError`]: a mistake in a scene or setting, no reference, an interrupt. A run that diverges is no error, nor is a method
-/// that a scene cannot have.
-pub fn report(plan: &Plan, tick: &(dyn Fn() + Sync)) -> Result<Report, StudyError> {
-    let scenes = plan.scenes.iter();
-    let scenes = scenes.map(|planned| scene::run(planned, plan.depth, tick));
-    Ok(Report {
+/// A mistake in a scene or setting, a missing reference or an interrupt end the report early, with the scenes up to then. A run that
+/// diverges does not, nor does a method that a scene cannot have.
+pub fn report(plan: &Plan, tick: &(dyn Fn() + Sync)) -> Found<Report> {
+    let mut scenes = Vec::new();
+    let mut missing = Vec::new();
+    let mut stopped = None;
+    for planned in &plan.scenes {
+        let found = match stopped {
+            None => scene::run(planned, plan.depth, tick),
+            Some(_) => {
+                missing.push(planned.name.clone());
+                continue;
+            }
+        };
+        match found {
+            Ok(found) => {
+                missing.extend(found.missing);
+                stopped = found.stopped;
+                scenes.push(found.results);
+            }
+            Err(error) => {
+                missing.push(planned.name.clone());
+                stopped = Some(error);
+            }
+        }
+    }
+    let results = Report {
         name: plan.name.clone(),
         title: plan.title.clone(),
         targets: plan.targets.clone(),
         depth: plan.depth,
-        scenes: scenes.collect::<Result<_, _>>()?,
-    })
+        scenes,
+    };
+    Found {
+        results,
+        missing,
+        stopped,
+    }
 }
 
 fn quantity_of(measure: Measure) -> Quantity {

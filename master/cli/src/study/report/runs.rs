@@ -33,6 +33,7 @@ impl Ending {
             Self::Done { .. } => "done",
             Self::Stopped(_) => "stopped",
             Self::Refused(_) => "refused",
+            Self::Missing => "missing",
         }
     }
 
@@ -44,6 +45,7 @@ impl Ending {
                 Some(format!("off by {error:.1e} of the solution"))
             }
             Self::Stopped(reason) | Self::Refused(reason) => Some(reason.clone()),
+            Self::Missing => Some("the study ended before this run".to_owned()),
         }
     }
 }
@@ -95,6 +97,7 @@ impl Compared<'_> {
                 Ok(Ok(statistics)) => statistics,
                 Ok(Err(reason)) => return Ending::Stopped(reason),
                 Err(RunError::Scene(refusal)) => return Ending::Refused(refusal.to_string()),
+                Err(RunError::Interrupted { .. }) => return Ending::Missing,
                 Err(error) => return Ending::Stopped(error.to_string()),
             };
             let time = statistics.time_total;

@@ -1,16 +1,19 @@
 //! All runs of one scene of a report.
 
+use linchpin_master::RunError;
 use linchpin_master::scene::{self, Scene};
+use linchpin_proto::readable::number;
 
 use super::plan::{PlannedScene, PlannedSetting};
 use super::runs::{Compared, ToleranceRun};
 use super::trace::{Trace, TraceRecorder};
 use super::{Depth, Ending, SceneReport, SettingReport, quantity_of};
-use crate::study::StudyError;
+use crate::interrupt;
 use crate::study::columns::{Column, record};
 use crate::study::reference::{Monolithic, Reference};
 use crate::study::runs::{Variant, simulated, with_macro_step};
 use crate::study::stability::{CaseMap, Grid, map_variants};
+use crate::study::{Found, StudyError};
 
 /// Tolerances of the solver of a monolithic scene.
 const TOLERANCES: [f64; 9] = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11];
@@ -21,12 +24,12 @@ const QUICK_VALUES: usize = 4;
 /// The finest run that takes the place of a reference has steps so much shorter than the smallest ones of the study.
 const REFINEMENT: f64 = 2.0;
 
-/// Runs everything.
+/// Runs everything, or as much as there is time for before an interrupt.
 pub fn run(
     planned: &PlannedScene,
     depth: Depth,
     tick: &(dyn Fn() + Sync),
-) -> Result<SceneReport, StudyError> {
+) -> Result<Found<SceneReport>, StudyError> {
     let mut variant = Variant {
         name: planned.name.clone(),
         scene: planned.scene.clone(),
@@ -43,7 +46,11 @@ pub fn run(
     let settings = settings.map(|setting| run_setting(planned, setting, &compared, tick));
     let settings = settings.collect::<Result<Vec<_>, _>>()?;
     let maps = maps(planned, &settings, depth, tick)?;
-    Ok(SceneReport {
+    let (maps, mut missing, mut stopped) = match maps {
+        None => (None, Vec::new(), None),
+        Some((grid, found)) => (Some((grid, found.results)), found.missing, found.stopped),
+    };
+    let report = SceneReport {
         name: planned.name.clone(),
         file: planned.file.display().to_string(),
         quantity: quantity_of(planned.measure),
@@ -52,7 +59,49 @@ pub fn run(
         monolithic: run_monolithic(&variant, planned.macro_steps[0], &compared, tick)?,
         settings,
         maps,
+    };
+    missing.extend(report.missing_runs());
+    if stopped.is_none() && interrupt::of_process().is_requested() && !missing.is_empty() {
+        let t = variant.scene.t_start;
+        stopped = Some(variant.failed(RunError::Interrupted { t }));
+    }
+    Ok(Found {
+        results: report,
+        missing,
+        stopped,
     })
+}
+
+impl SceneReport {
+    /// Runs that were not made.
+    fn missing_runs(&self) -> Vec<String> {
+        let is_missing = |ending: &Ending| matches!(ending, Ending::Missing);
+        let of_setting = |setting: &SettingReport| {
+            let runs = setting.runs.iter().filter(|run| is_missing(&run.ending));
+            let names = runs.map(|run| {
+                format!(
+                    "{}, {}, H = {} s",
+                    self.name,
+                    setting.name,
+                    number(run.macro_step)
+                )
+            });
+            names.collect::<Vec<_>>()
+        };
+        let monolithic = self.monolithic.iter();
+        let monolithic = monolithic.filter(|run| is_missing(&run.ending));
+        let monolithic = monolithic.map(|run| {
+            format!(
+                "{}, monolithic, tolerance {}",
+                self.name,
+                number(run.tolerance)
+            )
+        });
+        { self.settings.iter() }
+            .flat_map(of_setting)
+            .chain(monolithic)
+            .collect()
+    }
 }
 
 /// The reference, and what it is in words.
@@ -146,7 +195,7 @@ fn maps(
     settings: &[SettingReport],
     depth: Depth,
     tick: &(dyn Fn() + Sync),
-) -> Result<Option<(Grid, Vec<CaseMap>)>, StudyError> {
+) -> Result<Option<(Grid, Found<Vec<CaseMap>>)>, StudyError> {
     let Some(grid) = planned.grid(depth) else {
         return Ok(None);
     };
@@ -160,6 +209,9 @@ fn maps(
     };
     let pairs = planned.settings.iter().zip(settings);
     let variants = pairs.filter(is_possible).map(variant).collect();
+    if interrupt::of_process().is_requested() {
+        return Ok(None);
+    }
     let maps = map_variants(variants, &grid, tick)?;
     Ok(Some((grid, maps)))
 }

@@ -7,6 +7,7 @@ use linchpin_proto::v1::{Model, Value, value::Kind as ValueKind};
 
 use super::Simulated;
 use super::cell::MOST_GROWTH;
+use crate::interrupt;
 use crate::study::columns::{Column, Kind, record};
 use crate::study::runs::divergence;
 
@@ -64,8 +65,12 @@ impl BlowUp {
         let part = PART * (scene.t_end - scene.t_start);
         let (early, late) = (scene.t_start + part, scene.t_end - part);
         let first_size = largest(simulation, &extents);
+        let interrupt = interrupt::of_process();
         while simulation.macro_step()? {
             let t = simulation.t();
+            if interrupt.is_requested() {
+                return Err(RunError::Interrupted { t });
+            }
             for extent in &mut extents {
                 extent.add(simulation.row().values(), t <= early, t > late);
             }

@@ -8,11 +8,12 @@ mod table;
 
 use linchpin_master::probe::{ProbeError, macro_step_map};
 use linchpin_master::scene::{Axis, Scene, StabilitySettings};
+use linchpin_proto::readable::number;
 use linchpin_proto::v1::Model;
-use rayon::prelude::*;
 
-use super::StudyError;
+use super::found::each;
 use super::runs::{Variant, in_process};
+use super::{Found, StudyError};
 use crate::closed_form::ClosedForm;
 use blow_up::BlowUp;
 pub use cell::{Agreement, Cell, Simulated};
@@ -26,8 +27,10 @@ pub use table::{Count, rows, summary};
 pub struct CaseMap {
     /// Name of the case, or of the scene.
     pub case: String,
-    /// Cells row after row: x runs faster.
+    /// Cells row after row: x runs faster. Those that are missing are left out.
     pub cells: Vec<Cell>,
+    /// Number of cells that are missing, since the study ended early.
+    pub missing: usize,
     /// Why there are no spectral radii, if there are none.
     pub no_radius: Option<String>,
 }
@@ -116,12 +119,13 @@ pub fn number_of_points(scene: &Scene, grid: &Grid) -> usize {
 /// Maps the scene, or each of its cases; `tick` is called after each point.
 ///
 /// # Errors
-/// [`StudyError`]: a point of the grid does not fit the scene, a worker failed in another way than by diverging.
+/// [`StudyError`]: a point of the grid does not fit the scene, a worker failed in another way than by diverging. Once there are
+/// points, that ends the study early, with the points up to then.
 pub fn map(
     scene: &Scene,
     grid: &Grid,
     tick: &(dyn Fn() + Sync),
-) -> Result<Vec<CaseMap>, StudyError> {
+) -> Result<Found<Vec<CaseMap>>, StudyError> {
     map_variants(Variant::all(scene)?, grid, tick)
 }
 
@@ -133,7 +137,7 @@ pub(super) fn map_variants(
     variants: Vec<Variant>,
     grid: &Grid,
     tick: &(dyn Fn() + Sync),
-) -> Result<Vec<CaseMap>, StudyError> {
+) -> Result<Found<Vec<CaseMap>>, StudyError> {
     let studies = variants
         .into_iter()
         .map(|variant| Study::new(variant, grid))
@@ -147,17 +151,33 @@ pub(super) fn map_variants(
         tick();
         cell
     };
-    let mut cells = tasks
-        .par_iter()
-        .map(judge)
-        .collect::<Result<Vec<_>, _>>()?
-        .into_iter();
-    let of_case = |study: &Study| CaseMap {
-        case: study.variant.name.clone(),
-        cells: cells.by_ref().take(grid.len()).collect(),
-        no_radius: study.no_radius.clone(),
+    let (cells, stopped) = each(&tasks, judge);
+    let name = |(study, (x, y)): &(&Study, (f64, f64))| {
+        format!(
+            "{}, point ({}, {})",
+            study.variant.name,
+            number(*x),
+            number(*y)
+        )
     };
-    Ok(studies.iter().map(of_case).collect())
+    let missing = tasks.iter().zip(&cells).filter(|(_, cell)| cell.is_none());
+    let missing = missing.map(|(task, _)| name(task)).collect();
+    let mut cells = cells.into_iter();
+    let of_case = |study: &Study| {
+        let own = cells.by_ref().take(grid.len());
+        let own: Vec<Cell> = own.flatten().collect();
+        CaseMap {
+            case: study.variant.name.clone(),
+            missing: grid.len() - own.len(),
+            cells: own,
+            no_radius: study.no_radius.clone(),
+        }
+    };
+    Ok(Found {
+        results: studies.iter().map(of_case).collect(),
+        missing,
+        stopped,
+    })
 }
 
 /// One case.

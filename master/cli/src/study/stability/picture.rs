@@ -16,7 +16,7 @@ pub fn draw_map(maps: &[CaseMap], grid: &Grid, stem: &Path) -> Result<(), PlotEr
     plot_of(maps, grid).write(stem)
 }
 
-/// The picture that [`draw_map`] draws.
+/// The picture that [`draw_map`] draws; a map of which points are missing is left out.
 pub fn plot_of(maps: &[CaseMap], grid: &Grid) -> StabilityMap {
     let panel = |case: &CaseMap| MapPanel {
         title: case.case.clone(),
@@ -25,7 +25,10 @@ pub fn plot_of(maps: &[CaseMap], grid: &Grid) -> StabilityMap {
         cells: case.cells.iter().map(drawn).collect(),
     };
     StabilityMap {
-        panels: maps.iter().map(panel).collect(),
+        panels: { maps.iter() }
+            .filter(|map| map.missing == 0)
+            .map(panel)
+            .collect(),
         growth_label: "spectral radius".to_owned(),
         has_marks: true,
         lines: Vec::new(),

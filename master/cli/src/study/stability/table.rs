@@ -101,7 +101,11 @@ pub fn summary(maps: &[CaseMap]) -> String {
         let reason: String = reason
             .map(|reason| format!("\n  no spectral radius: {reason}"))
             .collect();
-        format!("{}: {}{reason}\n", map.case, Count::of(map))
+        let missing = match map.missing {
+            0 => String::new(),
+            missing => format!(", {missing} missing"),
+        };
+        format!("{}: {}{missing}{reason}\n", map.case, Count::of(map))
     };
     maps.iter().map(line).collect()
 }

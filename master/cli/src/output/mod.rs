@@ -1,0 +1,15 @@
+//! The folder that a command writes to: whose it is, and what `run.json` says of the command.
+//!
+//! * [`folder`]: one command at a time writes to a folder;
+//! * [`program`]: which program writes, where and since when;
+//! * [`status`]: `run.json`, from the first moment to the end;
+//! * [`study`]: that of a study.
+
+pub mod folder;
+pub mod program;
+pub mod status;
+pub mod study;
+
+pub use folder::OutputFolder;
+pub use program::Program;
+pub use status::{Ending, StatusFile};
