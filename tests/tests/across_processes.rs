@@ -83,7 +83,7 @@ fn scene() -> String {
     for (number, (settings, solver)) in CASES.iter().enumerate() {
         let coupling = settings.split(' ').map(|setting| {
             let (key, value) = setting.split_once('=').unwrap();
-            let is_text = matches!(key, "method" | "mu" | "order");
+            let is_text = matches!(key, "method" | "mu" | "order" | "moments");
             let value = if is_text {
                 format!("{value:?}")
             } else {

@@ -148,6 +148,8 @@ fn it_agrees_with_the_built_in_worker_to_rounding() {
                     LARGEST_DIFFERENCE_OF_LOADS
                 }
                 name if name.contains(".residual.") => continue,
+                // A difference of solutions that agree in most of their digits.
+                name if name == "error_estimate" => continue,
                 _ => LARGEST_DIFFERENCE,
             };
             let difference = difference(foreign, own);

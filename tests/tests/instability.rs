@@ -61,10 +61,7 @@ fn joints_that_come_apart_stop_the_run_with_joint_and_time() {
             0.0 < t && t < scene.t_end && opening > 0.5 * motion,
             "{message}"
         );
-        assert!(
-            message.contains("joint \"link\"") && message.contains("coupling.degree"),
-            "{message}"
-        );
+        assert!(message.contains("joint \"link\""), "{message}");
     }
 }
 
@@ -89,7 +86,6 @@ fn multipliers_that_grow_stop_the_run_with_joint_and_time() {
             0.0 < t && t < scene.t_end && step == scene.coupling.macro_step,
             "{message}"
         );
-        assert!(message.contains("coupling.degree"), "{message}");
     }
 }
 

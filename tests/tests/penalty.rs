@@ -128,7 +128,7 @@ fn a_joint_that_is_open_at_the_start_is_refused() {
     let error = try_run(&scene, Place::InProcess, &Options::default()).unwrap_err();
     let message = error.to_string();
     assert!(
-        message.contains("link.residual.position is 7e-2"),
+        message.contains("link.residual.position is 0.07"),
         "{message}"
     );
     let options = Options {

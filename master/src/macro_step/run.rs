@@ -44,11 +44,16 @@ pub struct ErrorPolicies<'a> {
 }
 
 impl ErrorPolicies<'_> {
-    /// What a step may be off by: what the scene says where steps vary or did so, otherwise what is bearable.
+    /// What error the scene allows of a step, where steps vary or did so.
+    pub fn of_scene(&self) -> Option<&Tolerance> {
+        let step_size = self.step_size.as_deref();
+        let step_size = step_size.filter(|own| own.rule() != Rule::Equal);
+        step_size.map(StepSize::tolerance)
+    }
+
+    /// What a step may be off by: what the scene allows, otherwise what is bearable.
     pub fn tolerance(&self) -> &Tolerance {
-        let of_scene = self.step_size.as_deref();
-        let of_scene = of_scene.filter(|own| own.rule() != Rule::Equal);
-        of_scene.map_or(self.errors.bearable(), StepSize::tolerance)
+        self.of_scene().unwrap_or(self.errors.bearable())
     }
 }
 

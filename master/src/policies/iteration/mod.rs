@@ -23,6 +23,9 @@ pub struct Settings {
     pub most_of_allowed: f64,
     /// Share of a correction below which what it misses is rounding, which passes do not take away.
     pub rounding: f64,
+    /// Share of a correction below which conditions are linear but for rounding. Where steps are fixed passes would make the steps of a linear
+    /// system differ.
+    pub linear: f64,
     /// Share of a correction that may be missed with new columns where steps are fixed. What is missed more often grows from step to step:
     /// larger lets light parts under heavy loads run away, smaller takes passes where the curvature of the motion is all that is missed.
     pub astray: f64,
@@ -49,6 +52,7 @@ impl Settings {
             most_left: if varies { 3e-3 } else { MOST_LEFT },
             most_of_allowed: 0.1,
             rounding: 1e-8,
+            linear: 1e-3,
             astray: 0.1,
             slow: 0.3,
             too_slow: 0.5,
@@ -267,7 +271,12 @@ impl IterationControl {
             // Where steps are fixed only what is known to be left of what is bearable counts, beside the rule below.
             match self.varies {
                 true => return change > most && left.is_none_or(leaves),
-                false if change > most && left.is_some_and(leaves) => return true,
+                false
+                    if change > most
+                        && left.is_some_and(|left| left > self.settings.linear && leaves(left)) =>
+                {
+                    return true;
+                }
                 // The step before has shown that corrections miss their aim.
                 false
                     if state
