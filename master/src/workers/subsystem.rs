@@ -17,7 +17,19 @@ use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
 use crate::system::Differentiation;
 use crate::time::MacroStep;
-use answer::NOTHING;
+
+/// How much of the inside of a step an answer tells.
+#[derive(Debug, Clone, Copy)]
+struct Inside {
+    integrals: u32,
+    instants: usize,
+}
+
+/// Nothing is told.
+const NOTHING: Inside = Inside {
+    integrals: 0,
+    instants: 0,
+};
 
 /// How far a look-ahead goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

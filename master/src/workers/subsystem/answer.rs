@@ -2,7 +2,7 @@
 
 use linchpin_proto::v1;
 
-use super::{Ahead, Subsystem};
+use super::{Ahead, Inside, NOTHING, Subsystem};
 use crate::error::RunError;
 use crate::time::MacroStep;
 
@@ -16,19 +16,6 @@ pub(crate) enum Answered {
     /// Nothing was done, because of the look-ahead or of the advance; over a shorter step it may be.
     Refused(RunError),
 }
-
-/// How much of the inside of a step an answer tells.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Inside {
-    integrals: u32,
-    instants: usize,
-}
-
-/// Nothing is told.
-pub(super) const NOTHING: Inside = Inside {
-    integrals: 0,
-    instants: 0,
-};
 
 impl Subsystem {
     /// Takes the answer to a request to advance and to look ahead, as [`Subsystem::collect`] does. What ends the run is an error.
