@@ -84,9 +84,10 @@ macro_rules! replies {
         }
 
         impl Reply for $message {
-            fn to(self, request: &impl Labelled) -> Self {
+            fn to(mut self, request: &impl Labelled) -> Self {
                 let Label { instance, sequence } = request.label();
-                Self { instance, sequence, ..self }
+                (self.instance, self.sequence) = (instance, sequence);
+                self
             }
         })+
     };
@@ -109,8 +110,9 @@ macro_rules! replies_without_sequence {
         }
 
         impl Reply for $message {
-            fn to(self, request: &impl Labelled) -> Self {
-                Self { instance: request.label().instance, ..self }
+            fn to(mut self, request: &impl Labelled) -> Self {
+                self.instance = request.label().instance;
+                self
             }
         })+
     };

@@ -171,7 +171,7 @@ impl Job<'_> {
         let status = StatusFile::new(folder.path(), &self.program, about);
         let page = folder.path().join("animation.html");
         let stale = ["svg", "png"].map(|ending| self.pictures.with_extension(ending));
-        let stale = [&stale[..], &[page.clone()]].concat();
+        let stale = [&stale[..], std::slice::from_ref(&page)].concat();
         let is_first = !status.is_there();
         let shows_progress = output.shows_progress();
         let mut recorder = RunRecorder::new(scene, folder.path(), stale, status, shows_progress)?;

@@ -189,13 +189,16 @@ fn run_monolithic(
     TOLERANCES.into_iter().map(run_one).collect()
 }
 
+/// A grid, and the maps on it as far as they were found.
+type GridMaps = (Grid, Found<Vec<CaseMap>>);
+
 /// The map of the scene, a panel for each setting that it can have.
 fn maps(
     planned: &PlannedScene,
     settings: &[SettingReport],
     depth: Depth,
     tick: &(dyn Fn() + Sync),
-) -> Result<Option<(Grid, Found<Vec<CaseMap>>)>, StudyError> {
+) -> Result<Option<GridMaps>, StudyError> {
     let Some(grid) = planned.grid(depth) else {
         return Ok(None);
     };
