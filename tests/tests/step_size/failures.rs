@@ -152,7 +152,7 @@ fn no_step_is_short_enough() {
             "Newton did not converge",
             "coupling.least_step",
             "t = 0.099",
-            "H = 0.00001 s",
+            "H = 1e-5 s",
         ] {
             assert!(shown.contains(part), "{part}: {shown}");
         }
@@ -166,12 +166,6 @@ fn fixed_steps_stop_as_ever() {
         let error = run_brittle(&scene, JUDGES[0].1, way, &Options::default());
         let error = error.err().unwrap();
         assert!(matches!(error, RunError::Worker { t: 0.0, .. }), "{error}");
-        assert!(
-            error
-                .to_string()
-                .contains("a smaller coupling.macro_step may help"),
-            "{error}"
-        );
         let error = run_brittle(&scene, JUDGES[1].1, way, &Options::default());
         assert!(matches!(error, Err(RunError::NotFinite { .. })));
     }
