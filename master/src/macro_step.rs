@@ -196,15 +196,17 @@ fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), Ru
             if is_limited {
                 outcome.verdict = outcome.verdict.max(Verdict::Fair);
             }
-            let fresh = iteration.has_fresh_columns();
-            let missed = own.learn(step, fresh, policies.tolerance());
-            // Where the scene says what is allowed, corrections may miss a part of their aim that is less.
-            outcome.verdict = match missed.of_allowed {
-                Some(missed) if missed > 1.0 => Verdict::Poor,
-                Some(_) if policies.of_scene().is_some() => outcome.verdict.min(Verdict::Fair),
-                _ => outcome.verdict,
-            };
-            iteration.learn(missed);
+            if iteration.learns() || own.method.tells_error() {
+                let fresh = iteration.has_fresh_columns();
+                let missed = own.learn(step, fresh, policies.tolerance());
+                // Where the scene says what is allowed, corrections may miss a part of their aim that is less.
+                outcome.verdict = match missed.of_allowed {
+                    Some(missed) if missed > 1.0 => Verdict::Poor,
+                    Some(_) if policies.of_scene().is_some() => outcome.verdict.min(Verdict::Fair),
+                    _ => outcome.verdict,
+                };
+                iteration.learn(missed);
+            }
             outcome.passes = Passes {
                 is_limited,
                 ..iteration.passes()

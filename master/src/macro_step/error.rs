@@ -46,17 +46,16 @@ impl Correcting<'_> {
         let tolerance = errors.bearable();
         // What other attempts at the step have told is left out: a step is told the same error whatever was tried before it.
         let attempts = std::mem::take(&mut self.own.attempts);
-        let mut estimate = self.error(step, tolerance, [None, None]);
-        self.own.attempts = attempts;
-        if let Some((nested, last)) = self.nested(step, tolerance) {
-            let careful = nested.prospect(nested.degree).scaled;
-            let likely = nested.likely(errors.lower_before(step, nested.lower_order()));
-            // Exchanged variables may have had the worst error.
-            if estimate.scaled <= careful {
-                (estimate.scaled, estimate.suspect) = (likely, last.suspect);
+        let estimate = match self.nested(step, tolerance) {
+            None => self.error(step, tolerance, [None, None]),
+            Some((nested, last)) => {
+                let likely = nested.likely(errors.lower_before(step, nested.lower_order()));
+                let estimate = self.with_exchanged(likely, nested.degree, (last, tolerance));
+                errors.note_lower(step, nested.lower);
+                estimate
             }
-            errors.note_lower(step, nested.lower());
-        }
+        };
+        self.own.attempts = attempts;
         estimate
     }
 
@@ -67,18 +66,33 @@ impl Correcting<'_> {
         tolerance: &Tolerance,
         degree: Option<usize>,
     ) -> Option<Estimate> {
-        let (nested, mut estimate) = self.nested(step, tolerance)?;
-        let prospect = nested.prospect(degree.unwrap_or(nested.degree));
-        (estimate.scaled, estimate.order) = (prospect.scaled, prospect.order);
-        estimate.is_of_step_alone = true;
+        let (nested, last) = self.nested(step, tolerance)?;
+        let degree = degree.unwrap_or(nested.degree);
+        let scaled = nested.prospect(degree).scaled;
+        Some(self.with_exchanged(scaled, degree, (last, tolerance)))
+    }
+
+    /// An error of the multipliers with polynomials of this degree, which `last` tells what has it, and those of exchanged variables.
+    fn with_exchanged(
+        &mut self,
+        scaled: f64,
+        degree: usize,
+        (last, tolerance): (Estimate, &Tolerance),
+    ) -> Estimate {
         let rows = self.layout.rows.len();
         let unknowns = self.own.end.system.unknowns();
         let multipliers = (0..rows).flat_map(|row| unknowns.of(row));
         let changes = multipliers.map(|unknown| self.own.change[unknown].abs());
-        estimate.change = changes.fold(0.0, f64::max);
+        let mut estimate = Estimate {
+            scaled,
+            order: 2 * degree + 1,
+            is_of_step_alone: true,
+            change: changes.fold(0.0, f64::max),
+            ..last
+        };
         self.add_errors_of_exchanged(tolerance, None, &mut estimate);
         self.add_unresolved_signals(tolerance, &mut estimate);
-        Some(estimate)
+        estimate
     }
 
     /// Solves with polynomials of one degree and of two degrees less, once for each first correction. Gives whether there are such.
@@ -123,20 +137,14 @@ impl Correcting<'_> {
         Some([differ(lower, lowest), differ(&own.solution, lower)])
     }
 
-    /// What the solutions with polynomials of fewer degrees tell, and the last of their differences. Every further degree changes it by the
-    /// factor by which the last one has done. Where the coefficients of a multiplier do not fall as fast, which they do with the root of
-    /// that factor, the step does not resolve it, and they tell the factor.
+    /// What the solutions with polynomials of fewer degrees tell, and the last of their differences.
     fn nested(&mut self, step: MacroStep, tolerance: &Tolerance) -> Option<(Nested, Estimate)> {
         let [before, last] = self.nested_differences(step, tolerance)?;
-        let fell = match before.scaled.is_finite() {
-            true => (last.scaled / before.scaled).min(1.0),
-            false => 1.0,
-        };
         let nested = Nested {
             degree: self.method.degree(),
             difference: last.scaled,
-            fell,
-            falls: fell.max(self.method.top_share()),
+            lower: before.scaled,
+            top_share: self.method.top_share(),
         };
         Some((nested, last))
     }

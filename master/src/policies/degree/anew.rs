@@ -10,10 +10,10 @@ pub struct Nested {
     pub degree: usize,
     /// By how much the solution differs from that of one degree less, over what is allowed: the error of the latter.
     pub difference: f64,
-    /// By what factor the last degree has changed that.
-    pub fell: f64,
-    /// By what factor a further degree changes it, at most.
-    pub falls: f64,
+    /// By how much that solution differs from the one of two degrees less.
+    pub lower: f64,
+    /// The largest ratio of the top coefficient of a multiplier to those before it.
+    pub top_share: f64,
 }
 
 /// How many integrations a step takes.
@@ -66,12 +66,18 @@ pub struct Anew {
 }
 
 impl Nested {
-    /// By how much the solution with one degree less differs from that with two degrees less, and the power of the step with which that falls.
-    pub fn lower(&self) -> f64 {
-        self.difference / self.fell
+    /// By what factor the last degree has changed the difference; no more is heard than rounding leaves.
+    fn fell(&self) -> f64 {
+        fall(self.difference, self.lower)
     }
 
-    /// The power of the step with which [`Nested::lower`] falls.
+    /// By what factor a further degree changes it, at most. Where the coefficients of a multiplier do not fall as fast, which they do with the
+    /// root of that factor, the step does not resolve it, and they tell the factor.
+    fn falls(&self) -> f64 {
+        self.fell().max(self.top_share)
+    }
+
+    /// The power of the step with which the lower difference falls.
     pub fn lower_order(&self) -> usize {
         2 * self.degree - 3
     }
@@ -82,12 +88,7 @@ impl Nested {
     /// that the factors of two degrees in a row are as `(2p - 3)/(2p + 1)`. Where it does not, nothing is known but what is kept in hand.
     pub fn likely(&self, before: f64) -> f64 {
         let p = self.degree as f64;
-        let lower = self.lower().max(before);
-        let fell = if lower > 0.0 {
-            self.difference / lower
-        } else {
-            1.0
-        };
+        let fell = fall(self.difference, self.lower.max(before));
         // Below two radians in a step.
         let is_resolved = fell * (2.0 * p - 3.0) * (2.0 * p - 1.0) < 1.0;
         match is_resolved {
@@ -103,8 +104,8 @@ impl Nested {
     pub fn prospect(&self, degree: usize) -> Prospect {
         let more = degree as f64 - self.degree as f64;
         let share = match degree < self.degree {
-            true => self.fell.powf(more + 0.5),
-            false => self.falls.powf(more + 0.5),
+            true => self.fell().powf(more + 0.5),
+            false => self.falls().powf(more + 0.5),
         };
         Prospect {
             scaled: self.difference * share,
@@ -182,6 +183,14 @@ impl Nested {
     }
 }
 
+/// The ratio of a difference to that of lower degrees, from rounding to 1; 1 where there is none, or it is no number.
+fn fall(difference: f64, lower: f64) -> f64 {
+    match difference / lower {
+        fell if lower.is_finite() && fell < 1.0 => fell.max(f64::EPSILON),
+        _ => 1.0,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -219,8 +228,8 @@ mod tests {
         let nested = Nested {
             degree: 3,
             difference: 1e3f64.sqrt(),
-            fell: 1e-3,
-            falls: 1e-3,
+            lower: 1e3f64.powf(1.5),
+            top_share: 0.0,
         };
         assert!((nested.prospect(3).scaled - 1.0).abs() < 1e-12);
         let own = |rest| choose(nested, ALL, cost(rest), Purpose::LongestStep);
@@ -234,8 +243,8 @@ mod tests {
         let nested = Nested {
             degree: 5,
             difference: 0.5,
-            fell: 1.0,
-            falls: 1.0,
+            lower: 0.5,
+            top_share: 1.0,
         };
         let every = Cost {
             every_step: true,
@@ -250,6 +259,23 @@ mod tests {
         assert_eq!(anew.choose(5, Purpose::Repetition, |_| 0.5), 2);
     }
 
+    /// Differences may vanish: the motion is met by any degree, or rounding is all that is left.
+    #[test]
+    fn no_difference_is_no_error_of_any_degree() {
+        for lower in [0.0, 1.0, f64::INFINITY] {
+            let nested = Nested {
+                degree: 4,
+                difference: 0.0,
+                lower,
+                top_share: 0.0,
+            };
+            for degree in 2..=5 {
+                assert_eq!(nested.prospect(degree).scaled, 0.0, "{lower} {degree}");
+            }
+            assert_eq!(nested.likely(0.0), 0.0);
+        }
+    }
+
     proptest! {
         #[test]
         fn degrees_stay_within_limits(
@@ -259,7 +285,7 @@ mod tests {
             rest in 0f64..1e4,
             highest in 2usize..=5,
         ) {
-            let nested = Nested { degree, difference, fell: falls, falls };
+            let nested = Nested { degree, difference, lower: difference / falls, top_share: 0.0 };
             for purpose in [Purpose::LongestStep, Purpose::Repetition, Purpose::SmallestError] {
                 let found = choose(nested, [2, highest], cost(rest), purpose);
                 prop_assert!((2..=highest).contains(&found));
@@ -274,7 +300,7 @@ mod tests {
             falls in 1e-6f64..0.9,
             rest in 1f64..1e4,
         ) {
-            let nested = Nested { degree, difference, fell: falls, falls };
+            let nested = Nested { degree, difference, lower: difference / falls, top_share: 0.0 };
             let found = choose(nested, ALL, cost(rest), Purpose::LongestStep);
             let integrations = |degree: usize| {
                 4.0 * rest / growth(nested.prospect(degree)) + 2.0 * (degree + 1) as f64

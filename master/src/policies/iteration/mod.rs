@@ -400,6 +400,11 @@ impl IterationControl {
         self.state.passes
     }
 
+    /// Whether it matters for later columns what the corrections have missed.
+    pub fn learns(&self) -> bool {
+        self.rule != Jacobian::EveryStep
+    }
+
     /// Whether the columns at hand belong to the present step.
     pub fn has_fresh_columns(&self) -> bool {
         self.state.are_fresh
