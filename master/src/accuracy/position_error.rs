@@ -4,7 +4,7 @@ use super::estimate::{Estimate, Suspect};
 use super::tolerance::Tolerance;
 use crate::joint::Level;
 use crate::layout::Layout;
-use crate::system::{Column, Outputs, System, motion_of};
+use crate::system::{Column, Outputs, System, motion_of, moved};
 
 /// A correction that was solved for, as far as its error is concerned.
 #[derive(Clone, Copy)]
@@ -88,11 +88,7 @@ impl PositionErrors {
             let subsystem = end.subsystem;
             let columns = system.columns_of(layout, subsystem);
             let change = |output: usize| {
-                let responses = columns.clone().filter_map(|column| {
-                    let response = difference.columns[column].derivatives.get(output)?;
-                    Some(response * self.raised[column])
-                });
-                responses.sum::<f64>().abs()
+                moved(difference.columns, columns.clone(), output, &self.raised).abs()
             };
             let mut allowed_angle = f64::INFINITY;
             for output in end.positions() {
@@ -139,12 +135,9 @@ impl PositionErrors {
         for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
             let columns = system.columns_of(layout, end.subsystem);
             for output in end.positions() {
-                let responses = columns.clone().filter_map(|column| {
-                    let response = all[column].derivatives.get(output)?;
-                    Some(response * self.raised[column])
-                });
+                let effect = moved(all, columns.clone(), output, &self.raised);
                 let is_length = end.coordinates().contains(&output);
-                visit([end.subsystem, output], is_length, responses.sum());
+                visit([end.subsystem, output], is_length, effect);
             }
         }
     }
@@ -214,13 +207,10 @@ impl PositionErrors {
             let subsystem = end.subsystem;
             let columns = correction.system.columns_of(layout, subsystem);
             for output in end.positions() {
-                let responses = columns.clone().filter_map(|column| {
-                    let response = correction.columns[column].derivatives.get(output)?;
-                    Some(response * self.raised[column])
-                });
+                let change = moved(correction.columns, columns.clone(), output, &self.raised);
                 let is_angle = !end.coordinates().contains(&output);
                 let inherited = inherited[usize::from(is_angle)];
-                let error = responses.sum::<f64>().abs() - correction.share.abs() * inherited;
+                let error = change.abs() - correction.share.abs() * inherited;
                 let allowed = tolerance.allowed_of_output(subsystem, output);
                 let suspect = Suspect::Output { subsystem, output };
                 estimate.add_error(error, allowed, correction.order, suspect);

@@ -1,5 +1,7 @@
 //! The response to one raised input, and how much it is raised.
 
+use std::ops::Range;
+
 use crate::layout::{DrivenInput, Layout};
 use serde::{Deserialize, Serialize};
 
@@ -134,6 +136,15 @@ impl Column {
             0.0
         }
     }
+}
+
+/// By how much an output moves where its inputs are raised by so much: `sum derivative raised` over the columns `own` of its subsystem.
+pub fn moved(columns: &[Column], own: Range<usize>, output: usize, raised: &[f64]) -> f64 {
+    let responses = own.filter_map(|column| {
+        let response = columns[column].derivatives.get(output)?;
+        Some(response * raised[column])
+    });
+    responses.sum()
 }
 
 #[cfg(test)]
