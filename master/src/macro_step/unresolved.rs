@@ -3,11 +3,11 @@
 use super::correcting::Correcting;
 use crate::accuracy::{Estimate, Suspect, Tolerance};
 use crate::layout::What;
-use crate::system::Outputs;
+use crate::system::{Outputs, moved};
 use crate::workers::Ahead;
 
 /// A curve that misses its signal inside the step by more than this share of what the signal does there says nothing about it.
-const UNRESOLVED: f64 = 0.2;
+const UNRESOLVED: f64 = 0.02;
 
 impl Correcting<'_> {
     /// Adds signals that the step does not resolve. Moments of the difference between curve and signal vanish whatever is between them, so the
@@ -37,17 +37,16 @@ impl Correcting<'_> {
             let start = now.of(subsystem)[place];
             let mut range = [start, start];
             let mut missed: f64 = 0.0;
-            for (instant, curve) in curves.iter().enumerate() {
-                let told = inside.find(subsystem, instant, place);
+            // Integrals are met like moments, and say nothing of what is between.
+            for (look, curve) in curves.iter().enumerate().skip(inside.weights) {
+                let told = inside.find(subsystem, look, place);
                 let Some(told) = told.filter(|told| *told < ahead.inside(subsystem).len()) else {
                     continue;
                 };
                 let columns = system.columns_of(self.layout, subsystem);
-                let responses = columns.filter_map(|column| {
-                    let column_of = &own.end.columns.all()[column];
-                    Some(column_of.derivatives.get(outputs + told)? * own.raised[column])
-                });
-                let value = ahead.inside(subsystem)[told] + responses.sum::<f64>();
+                let all = own.end.columns.all();
+                let change = moved(all, columns, outputs + told, &own.raised);
+                let value = ahead.inside(subsystem)[told] + change;
                 range = [range[0].min(value), range[1].max(value)];
                 missed = missed.max((curve[exchanged.first] - value).abs());
             }

@@ -7,6 +7,7 @@ mod feedthrough;
 mod mechanism;
 mod mistakes;
 mod processes;
+mod unresolved;
 
 use linchpin::error_norm::ColumnError;
 
