@@ -85,6 +85,43 @@ fn a_run_that_diverges_is_drawn() {
     }
 }
 
+/// A macro step of half a period gives a motion that is several times as large as the true one.
+#[test]
+fn a_run_that_is_wrong_says_so_even_when_it_is_quiet() {
+    let workshop = workshop(&[]);
+    let hermite = ["--quiet", "--set", "coupling.method=hermite"];
+    let of_step = |step: &str| {
+        let step = format!("coupling.macro_step={step}");
+        let outcome = workshop.run(&run(&[&hermite[..], &["--set", &step]].concat()));
+        let warnings = report(&workshop, "out")["warnings"].clone();
+        let warnings = warnings.as_array().unwrap();
+        let texts: Vec<String> = warnings
+            .iter()
+            .map(|own| own.as_str().unwrap().to_owned())
+            .collect();
+        (outcome, texts)
+    };
+    let (outcome, texts) = of_step("0.25");
+    assert!(!texts.is_empty());
+    for text in &texts {
+        assert!(
+            text.contains("of the motion") && text.contains("coupling.macro_step"),
+            "{text}"
+        );
+        assert!(
+            outcome.stderr.contains(&format!("warning: {text}")),
+            "{}",
+            outcome.stderr
+        );
+    }
+    let (outcome, texts) = of_step("1e-2");
+    assert!(
+        texts.is_empty() && outcome.stderr.is_empty(),
+        "{texts:?} {}",
+        outcome.stderr
+    );
+}
+
 #[test]
 fn a_run_that_does_not_start_leaves_its_reason_or_nothing_new() {
     let workshop = workshop(&[]);
