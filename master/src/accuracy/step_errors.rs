@@ -19,7 +19,7 @@ const REST: f64 = 1e-6;
 /// motion, the largest displacement from the start.
 pub struct StepErrors {
     bearable: Tolerance,
-    state: State,
+    told: Told,
 }
 
 /// Errors that the steps of a run are estimated to make, as shares of the motion: of the largest displacement from the start.
@@ -39,10 +39,14 @@ pub struct RunErrors {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
     bearable: tolerance::State,
+    told: Told,
+}
+
+/// The errors so far.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Told {
     /// For each kind of motion.
     groups: Vec<Group>,
-    /// Radius by which angles are compared with lengths in m; not known before the first step.
-    lever: Option<f64>,
     /// The difference that lower degrees made in the last step, and in the present one, with the lengths of the steps.
     lower: [Lower; 2],
     /// That of the last step, as a share of the motion.
@@ -71,10 +75,8 @@ impl StepErrors {
     pub fn new(are_known: bool, layout: &Layout, solvers: Vec<f64>, outputs: &dyn Outputs) -> Self {
         let bearable = Tolerance::of_motion(BEARABLE, layout, solvers, outputs);
         Self {
-            state: State {
-                bearable: bearable.state(),
+            told: Told {
                 groups: vec![Group::default(); bearable.sizes()],
-                lever: None,
                 lower: Default::default(),
                 last: are_known.then_some(0.0),
             },
@@ -94,19 +96,16 @@ impl StepErrors {
 
     /// Whether the lever is not known by which angles are compared with lengths.
     pub fn needs_lever(&self) -> bool {
-        self.state.lever.is_none()
+        self.bearable.lever().is_none()
     }
 
     /// Takes the largest effect of a unit force on lengths, and of a unit moment on angles: with `H^2/m` and `H^2/J` the root of their ratio is
     /// a radius of gyration. Lengths are at least what turning makes of it.
     pub fn take_lever(&mut self, [length, angle]: [f64; 2]) {
-        let lever = if angle > 0.0 {
-            (length / angle).sqrt()
-        } else {
-            0.0
-        };
-        self.state.lever = Some(lever);
-        self.bearable.set_lever(lever);
+        self.bearable.set_lever(match angle > 0.0 {
+            true => (length / angle).sqrt(),
+            false => 0.0,
+        });
     }
 
     /// Takes by how much the multipliers alone move a position over the step: motion that is tiny beside that is rounding.
@@ -117,7 +116,7 @@ impl StepErrors {
 
     /// The difference that lower degrees made in the step before, as it would have been over `step` if it falls with this `order`.
     pub fn lower_before(&self, step: MacroStep, order: usize) -> f64 {
-        let [last, _] = self.state.lower;
+        let [last, _] = self.told.lower;
         match last.length > 0.0 {
             true => last.difference * (step.length / last.length).powi(order as i32),
             false => 0.0,
@@ -127,20 +126,20 @@ impl StepErrors {
     /// Takes the difference that lower degrees make in the present attempt at a step.
     pub fn note_lower(&mut self, step: MacroStep, difference: f64) {
         let length = step.length;
-        self.state.lower[1] = Lower { difference, length };
+        self.told.lower[1] = Lower { difference, length };
     }
 
     /// Takes the error of a step that is accepted, told relative to what is bearable.
     pub fn accept(&mut self, layout: &Layout, step: MacroStep, estimate: &Estimate) {
-        if self.state.last.is_none() {
+        if self.told.last.is_none() {
             return;
         }
-        self.state.last = Some(BEARABLE * estimate.scaled);
-        self.state.lower[0] = self.state.lower[1];
+        self.told.last = Some(BEARABLE * estimate.scaled);
+        self.told.lower[0] = self.told.lower[1];
         let Some((group, size)) = self.bearable.size_of(layout, estimate.suspect) else {
             return;
         };
-        let group = &mut self.state.groups[group];
+        let group = &mut self.told.groups[group];
         let error = BEARABLE * estimate.scaled * size;
         // What a joint is open by stays open over many steps and counts once.
         if !matches!(estimate.suspect, Suspect::Opening(_)) {
@@ -158,14 +157,14 @@ impl StepErrors {
 
     /// The error of the last step as a share of the motion; not known where the method has no corrector.
     pub fn of_last_step(&self) -> Option<f64> {
-        self.state.last
+        self.told.last
     }
 
     /// The errors of all steps as shares of the whole motion.
     pub fn of_run(&self, layout: &Layout) -> Option<RunErrors> {
-        self.state.last?;
+        self.told.last?;
         let mut errors = RunErrors::default();
-        for (number, group) in self.state.groups.iter().enumerate() {
+        for (number, group) in self.told.groups.iter().enumerate() {
             let share = |error: f64| match self.bearable.size(number) {
                 0.0 => 0.0,
                 size => error / size,
@@ -185,15 +184,14 @@ impl StepErrors {
     pub fn state(&self) -> State {
         State {
             bearable: self.bearable.state(),
-            ..self.state.clone()
+            told: self.told.clone(),
         }
     }
 
     /// Goes on from what was written.
     pub fn resume(&mut self, state: State) {
-        self.bearable.resume(state.bearable.clone());
-        self.bearable.set_lever(state.lever.unwrap_or_default());
-        self.state = state;
+        self.bearable.resume(state.bearable);
+        self.told = state.told;
     }
 }
 

@@ -18,8 +18,6 @@ pub struct Tolerance {
     absolute: f64,
     /// Whether sizes are displacements from the start, and errors are not shared out along the path.
     is_of_motion: bool,
-    /// Lengths are at least so long as this radius in m times the angles.
-    lever: f64,
     state: State,
     /// For each subsystem the error that its solver allows itself: less cannot be told.
     solvers: Vec<f64>,
@@ -28,6 +26,8 @@ pub struct Tolerance {
 /// The sizes of all quantities so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct State {
+    /// Lengths are at least so long as this radius in m times the angles, once it is known.
+    lever: Option<f64>,
     sizes: Vec<Size>,
     /// For each subsystem and coupling output what it belongs to, if it is watched.
     watched: Vec<Vec<Option<Watched>>>,
@@ -99,8 +99,8 @@ impl Tolerance {
             relative,
             absolute,
             is_of_motion,
-            lever: 0.0,
             state: State {
+                lever: None,
                 sizes: Vec::new(),
                 watched: watched.collect(),
             },
@@ -219,17 +219,22 @@ impl Tolerance {
         self.state.sizes.len()
     }
 
-    /// Gives the radius in m by which angles are compared with lengths.
+    /// The radius in m by which angles are compared with lengths, if it is known.
+    pub fn lever(&self) -> Option<f64> {
+        self.state.lever
+    }
+
+    /// Gives that radius.
     pub fn set_lever(&mut self, lever: f64) {
-        self.lever = lever;
+        self.state.lever = Some(lever);
     }
 
     /// Size of a group so far.
     pub fn size(&self, group: usize) -> f64 {
         let sizes = &self.state.sizes;
         let own = |size: &Size| size.largest.max(size.ahead);
-        let turned = match (self.lever > 0.0, sizes.as_slice()) {
-            (true, [_, angle, ..]) if group == 0 => self.lever * own(angle),
+        let turned = match (self.state.lever, sizes.as_slice()) {
+            (Some(lever), [_, angle, ..]) if group == 0 && lever > 0.0 => lever * own(angle),
             _ => 0.0,
         };
         own(&sizes[group]).max(turned)

@@ -27,9 +27,11 @@
 //! * `coupling`: the method in a macro step;
 //! * `shapes`: what the curves are made of;
 //! * `curves`, `sample`: the curves of all variables, and their values where they are looked at;
+//! * `continuation`: what of a curve goes on from one step to the next;
 //! * `moments`: how conditions inside the step are read;
 //! * `stack`, `reduced`: the equations of all unknowns, and those of fewer degrees or with relaxed top conditions.
 
+mod continuation;
 mod curves;
 mod coupling;
 mod moments;
