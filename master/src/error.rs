@@ -53,6 +53,12 @@ pub enum RunError {
         /// What its process left behind, if known.
         exit_message: ExitMessage,
     },
+    /// A worker refuses what connected signals are at the start.
+    #[error(
+        "{0}\n  help: the signals that are connected are searched from their start values: give `start`, a value that the worker takes \
+         near the solution, in a [[connection]]"
+    )]
+    SignalsAtStart(Box<RunError>),
     /// A worker sent a number that is none.
     #[error(
         "subsystem \"{subsystem}\" sent {value} for output \"{variable}\" in the macro step from t = {t} s \

@@ -15,13 +15,17 @@ use crate::system::Outputs;
 /// often is not less accurate for it. Every connected signal has its own.
 pub struct Tolerance {
     relative: f64,
-    absolute: f64,
+    /// Of lengths in m, and of all else.
+    absolute: [f64; 2],
     /// Whether sizes are displacements from the start, and errors are not shared out along the path.
     is_of_motion: bool,
     state: State,
     /// For each subsystem the error that its solver allows itself: less cannot be told.
     solvers: Vec<f64>,
 }
+
+/// Positions are rounded by this share of them, and by some steps.
+const ROUNDING: f64 = 1e-13;
 
 /// The sizes of all quantities so far.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,6 +39,8 @@ pub struct State {
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 struct Size {
+    /// What is allowed whatever the size.
+    absolute: f64,
     largest: f64,
     /// What it may become in the present attempt at a step.
     ahead: f64,
@@ -53,29 +59,32 @@ struct Watched {
 }
 
 impl Tolerance {
-    /// With the tolerance relative to sizes and the absolute one, for the quantities of `layout` at a start with these `outputs`; `solvers` are the tolerances of the subsystems' solvers.
+    /// With the tolerance relative to sizes and the absolute ones, of lengths in m and of all else, for the quantities of `layout` at a start with
+    /// these `outputs`; `solvers` are the tolerances of the subsystems' solvers.
     pub fn new(
-        [relative, absolute]: [f64; 2],
+        relative: f64,
+        absolute: [f64; 2],
         layout: &Layout,
         solvers: Vec<f64>,
         outputs: &dyn Outputs,
     ) -> Self {
-        Self::of([relative, absolute], false, layout, solvers, outputs)
+        Self::of((relative, absolute), false, layout, solvers, outputs)
     }
 
     /// A share of the motion: of the largest displacement from a start with these `outputs`, one in m and one in rad for all joints.
-    /// It is not less than the tolerances of the `solvers`: motion so small is rest.
+    /// It is not less than the tolerances of the `solvers` and than the rounding of the positions: motion so small is rest.
     pub fn of_motion(
         share: f64,
         layout: &Layout,
         solvers: Vec<f64>,
         outputs: &dyn Outputs,
     ) -> Self {
-        let mut own = Self::of([share, 0.0], true, layout, solvers, outputs);
+        let mut own = Self::of((share, [0.0; 2]), true, layout, solvers, outputs);
         for subsystem in 0..own.solvers.len() {
             for output in 0..own.state.watched[subsystem].len() {
                 if let Some(group) = own.group_of_output(subsystem, output) {
-                    let least = own.solvers[subsystem] / share;
+                    let rounding = ROUNDING * outputs.of(subsystem)[output].abs();
+                    let least = own.solvers[subsystem].max(rounding) / share;
                     let size = &mut own.state.sizes[group];
                     size.largest = size.largest.max(least).min(size.most);
                 }
@@ -85,7 +94,7 @@ impl Tolerance {
     }
 
     fn of(
-        [relative, absolute]: [f64; 2],
+        (relative, absolute): (f64, [f64; 2]),
         is_of_motion: bool,
         layout: &Layout,
         solvers: Vec<f64>,
@@ -110,8 +119,11 @@ impl Tolerance {
         for joint in &layout.joints {
             // Motion is that of the whole scene: a joint may stay where it is.
             let known = sizes.filter(|_| is_of_motion);
-            let [length, angle] =
-                known.unwrap_or_else(|| [f64::INFINITY, 1.0].map(|most| tolerance.add_size(most)));
+            let [length, angle] = known.unwrap_or_else(|| {
+                let [lengths, others] = absolute;
+                let groups = [(f64::INFINITY, lengths), (1.0, others)];
+                groups.map(|(most, absolute)| tolerance.add_size(most, absolute))
+            });
             sizes = Some([length, angle]);
             for end in &joint.ends {
                 for place in end.positions() {
@@ -122,7 +134,7 @@ impl Tolerance {
         }
         for exchanged in &layout.exchanged {
             if let What::Output(place) = exchanged.what {
-                let own = tolerance.add_size(f64::INFINITY);
+                let own = tolerance.add_size(f64::INFINITY, absolute[1]);
                 tolerance.watch(exchanged.subsystem, place, own);
             }
         }
@@ -130,8 +142,9 @@ impl Tolerance {
         tolerance
     }
 
-    fn add_size(&mut self, most: f64) -> usize {
+    fn add_size(&mut self, most: f64, absolute: f64) -> usize {
         self.state.sizes.push(Size {
+            absolute,
             largest: 0.0,
             ahead: 0.0,
             most,
@@ -266,11 +279,11 @@ impl Tolerance {
         let allowed = match self.state.watched[subsystem][output] {
             Some(watched) => {
                 let largest = self.size(watched.size);
-                let Size { path, .. } = self.state.sizes[watched.size];
+                let Size { absolute, path, .. } = self.state.sizes[watched.size];
                 let path = if self.is_of_motion { 0.0 } else { path };
-                (self.absolute + self.relative * largest) / (1.0 + path)
+                (absolute + self.relative * largest) / (1.0 + path)
             }
-            None => self.absolute,
+            None => self.absolute[1],
         };
         allowed.max(self.solvers[subsystem])
     }
@@ -292,7 +305,7 @@ impl Tolerance {
 
     /// How far a joint may be open in one row: as far as its markers may be off.
     pub fn allowed_of_opening(&self, layout: &Layout, row: usize) -> f64 {
-        output_like(layout, row).map_or(self.absolute, |[subsystem, output]| {
+        output_like(layout, row).map_or(self.absolute[1], |[subsystem, output]| {
             self.allowed_of_output(subsystem, output)
         })
     }
@@ -301,7 +314,7 @@ impl Tolerance {
     pub fn allowed_of_variable(&self, subsystem: usize, what: What) -> f64 {
         match what {
             What::Output(output) => self.allowed_of_output(subsystem, output),
-            What::Attitude { .. } => self.absolute + self.relative,
+            What::Attitude { .. } => self.absolute[1] + self.relative,
         }
     }
 }

@@ -10,7 +10,7 @@ pub const ROUNDING: f64 = 1e-11;
 
 /// Motion below this (m, rad, and per s) is no measure of an opening: a joint may rest in the origin, and then its
 /// positions and velocities are nothing but rounding.
-pub const LEAST_MOTION: f64 = 1e-3;
+const LEAST_MOTION: f64 = 1e-3;
 
 /// `u . w` and its derivatives up to a level, 0 above it.
 pub fn product(highest: Level, [u, w]: &[Jet; 2]) -> [f64; 3] {
@@ -60,7 +60,7 @@ pub trait Condition: Send + Sync {
     }
 
     /// Size of the terms that cancel in [`Condition::value`] while the condition holds, for judging what is rounding:
-    /// lengths and rates of positions; of axes 1 and rates of turning. At least [`LEAST_MOTION`].
+    /// lengths and rates of positions; of axes 1 and rates of turning. At least 1e-3.
     fn extent(&self, level: Level, motion: &Motion) -> f64 {
         let arms = self
             .law()

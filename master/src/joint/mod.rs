@@ -18,7 +18,7 @@ mod rows;
 
 pub use atpoint::AtPoint;
 pub use composite::Kind;
-pub use condition::{Condition, LEAST_MOTION, ROUNDING, product};
+pub use condition::{Condition, ROUNDING, product};
 pub use inplane::InPlane;
 pub use level::Level;
 pub use linchpin_proto::joint_load::End;

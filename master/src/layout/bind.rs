@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use linchpin_proto::joint_load::{End, Reads};
 
+use super::border::Border;
 use super::bound::{BoundJoint, Layout, Row};
 use super::coupled::{Coupled, Lack, MarkedJoint, MarkerLacks};
 use super::exchanged::{Exchanged, PoseVariables, Rates, Turning, What};
@@ -70,6 +71,7 @@ impl<'a> Binder<'a> {
             joint_loads: vec![Vec::new(); subsystems],
             frames: Vec::new(),
             outputs: vec![Vec::new(); subsystems],
+            border: Border::default(),
             level,
             inside: Inside::default(),
             ranges: vec![0..0; subsystems],

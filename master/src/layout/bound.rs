@@ -6,6 +6,8 @@ use std::sync::Arc;
 use linchpin_proto::v1;
 use nalgebra::UnitQuaternion;
 
+use super::border::Border;
+use super::coupled::MarkedConnection;
 use super::exchanged::{Exchanged, What};
 use super::input::DrivenInput;
 use super::inside::Inside;
@@ -33,6 +35,8 @@ pub struct Layout {
     pub frames: Vec<Frame>,
     /// For each subsystem the names of the outputs that the coupling reads, each once.
     pub outputs: Vec<Vec<String>>,
+    /// Conditions of the joints that follow from others.
+    pub border: Border,
     /// Highest level of the conditions.
     pub level: Level,
     /// What is read inside a step.
@@ -145,6 +149,20 @@ impl Layout {
         }
         let own = self.exchanged_of(variable);
         own.map_or_else(String::new, |exchanged| exchanged.name.clone())
+    }
+
+    /// The variable of a connected signal.
+    pub fn variable_of(&self, connection: &MarkedConnection) -> usize {
+        let (subsystem, output) = &connection.from;
+        let is_source = |one: &&Exchanged| {
+            let place = match one.what {
+                What::Output(place) => place,
+                What::Attitude { .. } => return false,
+            };
+            one.subsystem == *subsystem && self.outputs[*subsystem][place] == *output
+        };
+        let exchanged = self.exchanged.iter().find(is_source);
+        exchanged.map_or(self.rows.len(), |one| one.first)
     }
 
     /// What an exchanged variable belongs to.

@@ -18,12 +18,14 @@ pub struct MarkedJoint {
 }
 
 /// A signal connection of the scene.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MarkedConnection {
     /// Subsystem and output.
     pub from: (usize, String),
     /// Subsystem and input.
     pub to: (usize, String),
+    /// Where the search for its value at the start begins: given by the scene, or by the model as the default of the input.
+    pub start: Option<f64>,
 }
 
 /// How a subsystem takes loads whose direction turns with the bodies.

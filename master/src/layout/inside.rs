@@ -75,6 +75,16 @@ impl Inside {
         of(&self.integrated) * self.weights + of(&self.places) * self.shares.len()
     }
 
+    /// The places of the outputs whose values a subsystem tells, value by value.
+    pub fn places_of(&self, subsystem: usize) -> impl Iterator<Item = usize> {
+        let looks = 0..if self.values(subsystem) > 0 {
+            self.looks()
+        } else {
+            0
+        };
+        looks.flat_map(move |look| self.shown(subsystem, look).0.iter().copied())
+    }
+
     /// Writes what a subsystem with that many coupling `outputs` tells at a look to their places in `outputs`; `told` is what it tells at all
     /// of them. Other places stay as they are.
     pub fn spread(&self, subsystem: usize, look: usize, told: &[f64], outputs: &mut [f64]) {

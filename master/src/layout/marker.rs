@@ -16,6 +16,15 @@ pub struct BoundEnd {
     levels: Vec<Places>,
 }
 
+/// A coordinate or part of an attitude, or a rate of them, among the coupling outputs of a subsystem.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Position {
+    /// Its place.
+    pub place: usize,
+    /// Whether it is a coordinate, measured by the size of the mechanism; otherwise it is an angle or part of a quaternion, measured by 1.
+    pub is_length: bool,
+}
+
 /// Places in the coupling outputs on one level; empty where nothing is read.
 #[derive(Debug, Clone, PartialEq, Default)]
 struct Places {
@@ -64,6 +73,14 @@ impl BoundEnd {
     pub fn places(&self, level: Level) -> impl Iterator<Item = usize> {
         let levels = self.levels.get(level as usize).into_iter();
         levels.flat_map(|places| places.position.iter().chain(&places.rotation).copied())
+    }
+
+    /// Places of what is read on a level, and what of it is measured by the size of the mechanism.
+    pub fn sized(&self, level: Level) -> impl Iterator<Item = Position> {
+        let translation = self.translation(level).iter().map(|&place| (place, true));
+        let orientation = self.orientation(level).iter().map(|&place| (place, false));
+        let both = translation.chain(orientation);
+        both.map(|(place, is_length)| Position { place, is_length })
     }
 
     /// Places of the coordinates on position level.

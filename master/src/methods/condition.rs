@@ -40,7 +40,7 @@ impl Condition {
             Self::Baumgarte { .. } => 1,
             Self::Weighted { .. } => system.level().up_to().len(),
         };
-        let solver = |_| LinearSolver::new(system.pattern());
+        let solver = |_| system.solver();
         (0..systems).map(solver).collect()
     }
 

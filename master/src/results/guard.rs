@@ -1,90 +1,80 @@
 //! Stops a run that diverges.
 
 use crate::error::RunError;
-use crate::joint::LEAST_MOTION;
 use crate::layout::{Layout, Row as LayoutRow};
 use crate::results::Row;
+use crate::results::growth::{Growth, MOST_GROWTH};
 use crate::time::MacroStep;
 use serde::{Deserialize, Serialize};
 
 /// Watches the opening of the joints and the growth of all values.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Guard {
-    most_opening: f64,
-    most_growth: f64,
+    watches_growth: bool,
+    watches_openings: bool,
+    /// Size of the mechanism in m, then of its motion where that is larger.
     largest_motion: f64,
-    steps: usize,
-    first_sizes: Vec<f64>,
+    growth: Growth,
 }
 
 /// A joint that is open by more than this share of the largest motion holds nothing together.
 const MOST_OPENING: f64 = 0.5;
 
-/// A value may grow by this factor since the first steps: a start from rest with a small macro step needs much.
-const MOST_GROWTH: f64 = 1e12;
-
-/// Number of first steps that set the size of a value.
-const FIRST_STEPS: usize = 10;
+/// Motion below this share of the size of a mechanism is no measure of an opening: a joint may rest in the origin, and then its positions
+/// are nothing but rounding.
+const LEAST_MOTION: f64 = 1e-3;
 
 impl Guard {
-    /// For methods that close the joints.
-    pub fn of_rigid_joints() -> Self {
+    /// For methods that close the joints of a mechanism of this size in m.
+    pub fn of_rigid_joints(size: f64) -> Self {
         Self {
-            most_opening: MOST_OPENING,
-            most_growth: MOST_GROWTH,
-            largest_motion: LEAST_MOTION,
-            steps: 0,
-            first_sizes: Vec::new(),
+            watches_growth: true,
+            watches_openings: true,
+            largest_motion: LEAST_MOTION * size,
+            growth: Growth::default(),
         }
     }
 
     /// For methods whose joints are springs: only growth is watched.
     pub fn of_springs() -> Self {
         Self {
-            most_opening: f64::INFINITY,
-            ..Self::of_rigid_joints()
+            watches_growth: true,
+            ..Self::off()
         }
     }
 
     /// Watches nothing: values that are not finite stop a run in any case.
     pub fn off() -> Self {
         Self {
-            most_growth: f64::INFINITY,
-            ..Self::of_springs()
+            watches_growth: false,
+            watches_openings: false,
+            largest_motion: 0.0,
+            growth: Growth::default(),
         }
     }
 
     /// Judges the row at the end of a macro step.
     pub fn judge(&mut self, step: MacroStep, row: &Row, layout: &Layout) -> Result<(), RunError> {
-        if self.most_growth.is_infinite() {
-            return Ok(());
+        if self.watches_growth {
+            self.judge_growth(step, row)?;
         }
-        self.judge_growth(step, row)?;
-        if self.most_opening.is_finite() {
+        if self.watches_openings {
             self.judge_opening(step, row, layout)?;
         }
         Ok(())
     }
 
     fn judge_growth(&mut self, step: MacroStep, row: &Row) -> Result<(), RunError> {
-        self.steps += 1;
-        let sizes = row.states().map(|(_, value)| value.abs());
-        if self.steps <= FIRST_STEPS {
-            self.first_sizes.resize(row.states().count(), 0.0);
-            for (largest, size) in self.first_sizes.iter_mut().zip(sizes) {
-                *largest = largest.max(size);
-            }
-            return Ok(());
-        }
-        let largest = self.first_sizes.iter().copied().fold(0.0, f64::max);
-        let mut states = row.states();
-        match states.find(|(_, value)| value.abs() > self.most_growth * largest) {
-            Some((variable, value)) if largest > 0.0 => Err(RunError::Grown {
+        let largest = row
+            .states()
+            .max_by(|(_, one), (_, other)| one.abs().total_cmp(&other.abs()));
+        match largest {
+            Some((variable, value)) if self.growth.take(value.abs()) => Err(RunError::Grown {
                 t: step.end,
                 step: step.length,
                 variable: variable.to_owned(),
                 value,
-                growth: self.most_growth,
+                growth: MOST_GROWTH,
             }),
             _ => Ok(()),
         }
@@ -96,14 +86,8 @@ impl Guard {
         row: &Row,
         layout: &Layout,
     ) -> Result<(), RunError> {
-        for joint in &layout.joints {
-            for end in &joint.ends {
-                for &place in end.coordinates() {
-                    let position = row.output(end.subsystem, place);
-                    self.largest_motion = self.largest_motion.max(position.abs());
-                }
-            }
-        }
+        let reached = layout.largest_position(|subsystem, place| row.output(subsystem, place));
+        self.largest_motion = self.largest_motion.max(reached);
         for number in 0..layout.rows.len() {
             let opening = row.residuals(number)[0].abs();
             let LayoutRow { joint, condition } = layout.rows[number];
@@ -112,7 +96,7 @@ impl Guard {
             } else {
                 1.0
             };
-            if opening > self.most_opening * motion {
+            if opening > MOST_OPENING * motion {
                 return Err(RunError::Diverged {
                     t: step.end,
                     step: step.length,

@@ -2,11 +2,13 @@
 
 mod contacts;
 mod free_velocity;
+mod growth;
 mod guard;
 mod integrations;
 mod mechanism;
 mod moments;
 mod outcome;
+mod redundancy;
 mod row;
 mod statistics;
 mod step_degrees;
@@ -23,6 +25,7 @@ pub use integrations::{Cause, Integrations};
 pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use moments::MomentsOf;
 pub use outcome::{Outcome, Passes};
+pub use redundancy::Redundancy;
 pub use row::{Drawn, OfStep, Row};
 pub use statistics::{
     ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics,

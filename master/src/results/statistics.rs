@@ -6,7 +6,9 @@ use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1;
 use serde::{Deserialize, Serialize};
 
-use super::{FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Row, StepDegrees, Verdict};
+use super::{
+    FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Redundancy, Row, StepDegrees, Verdict,
+};
 use crate::accuracy::RunErrors;
 use crate::layout::Layout;
 use crate::time::MacroStep;
@@ -46,6 +48,8 @@ pub struct Statistics {
     pub moments: Option<MomentsOf>,
     /// Initial velocities that were chosen so that they meet the joints.
     pub free_velocities: Vec<FreeVelocity>,
+    /// Conditions of the joints that follow from others.
+    pub redundancy: Redundancy,
     /// The share of every subsystem.
     pub subsystems: Vec<SubsystemStatistics>,
 }

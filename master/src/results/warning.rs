@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use super::redundancy::Redundancy;
 use super::statistics::Statistics;
 
 /// Share of the macro steps that may be poor.
@@ -19,6 +20,8 @@ const OF_RUN: f64 = 0.1;
 /// Why the results of a run may be wrong.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Warning {
+    /// Joints demand the same.
+    Redundant(Redundancy),
     /// The corrections of many macro steps have missed their aim.
     Poor {
         /// So many.
@@ -53,6 +56,9 @@ impl Statistics {
     /// What speaks against the results.
     pub fn warnings(&self) -> Vec<Warning> {
         let mut warnings = Vec::new();
+        if self.redundancy.conditions > 0 {
+            warnings.push(Warning::Redundant(self.redundancy.clone()));
+        }
         let (steps, of) = (self.verdicts.poor, self.macro_steps);
         if steps as f64 > MOST_POOR * of as f64 {
             warnings.push(Warning::Poor { steps, of });
@@ -87,6 +93,19 @@ impl Statistics {
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Redundant(Redundancy { conditions, joints }) => {
+                let what = if *conditions == 1 {
+                    "condition"
+                } else {
+                    "conditions"
+                };
+                write!(
+                    f,
+                    "the joints {} have {conditions} redundant {what}: how they share their loads is not determined, and the \
+                     multipliers of least norm are taken; the motion does not depend on that",
+                    joints.join(", ")
+                )
+            }
             Self::Poor { steps, of } => write!(
                 f,
                 "{steps} of {of} macro steps are poor: their corrections missed their aim, so that results there are not to be \

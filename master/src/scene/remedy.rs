@@ -5,7 +5,11 @@ use crate::error::RunError;
 use crate::methods::Method;
 
 /// Keys of methods that can keep a run from diverging, and how.
-const REMEDIES: [(&str, &str); 6] = [
+const REMEDIES: [(&str, &str); 7] = [
+    (
+        "iterations",
+        "more corrections for light parts under heavy loads (coupling.iterations)",
+    ),
     ("degree", "a lower coupling.degree"),
     ("index", "a lower coupling.index"),
     (
@@ -32,7 +36,7 @@ impl Coupling {
             RunError::NotFinite { .. } => Some(format!(
                 "the solver has probably diverged: try {shorter} or tighter solver tolerances"
             )),
-            RunError::Worker { source, .. } if source.is_recoverable() => {
+            RunError::Worker { source, step, .. } if source.is_recoverable() && *step > 0.0 => {
                 Some(format!("{shorter} may help"))
             }
             _ => None,

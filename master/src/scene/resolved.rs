@@ -93,7 +93,7 @@ pub struct Geometry {
 }
 
 /// An output of one subsystem that is an input of another.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Connection {
     /// Its name, unique among subsystems, joints and connections.
     pub name: String,
@@ -101,6 +101,8 @@ pub struct Connection {
     pub from: (usize, String),
     /// Place in `Scene::subsystems`, and the input.
     pub to: (usize, String),
+    /// Where the search for its value at the start begins.
+    pub start: Option<f64>,
 }
 
 /// What is recorded.

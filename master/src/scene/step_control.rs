@@ -32,10 +32,10 @@ pub(super) const TOLERANCE: Key = Key::new(
 /// Keys that only a variable macro step has.
 pub(super) const VARIABLE: [Key; 3] = [
     Key::new("absolute_tolerance", Takes::Number(POSITIVE))
-        .default("1e-3 `tolerance`")
+        .default("1e-3 `tolerance` times the size of the mechanism for lengths, 1e-3 `tolerance` for all else")
         .means(
-            "with `tolerance`: error in m or rad that is allowed whatever the size; smaller if \
-             motions are much smaller than 1 mm or 1 mrad",
+            "with `tolerance`: error in m or rad that is allowed whatever the size; the size of a mechanism is its \
+             largest position or arm at the start, 1 m if it has none",
         ),
     Key::new("least_step", Takes::Number(POSITIVE))
         .default("1e-9 (t_end - t_start)")
@@ -47,9 +47,6 @@ pub(super) const VARIABLE: [Key; 3] = [
         .default("(t_end - t_start)/10, or `macro_step` or `least_step` if that is more")
         .means("with `tolerance`: longest macro step, s; at least `macro_step`"),
 ];
-
-/// Absolute tolerance per relative one: a motion counts as at least 1e-3 m or rad in size.
-const LEAST_SIZE: f64 = 1e-3;
 
 /// First, shortest and longest macro step per simulated time.
 const FIRST_SHARE: f64 = 1e-4;
@@ -110,7 +107,7 @@ pub(super) fn read(
         first: first.unwrap_or((FIRST_SHARE * duration).clamp(least, greatest)),
         control: Some(StepControl {
             tolerance,
-            absolute_tolerance: absolute?.unwrap_or(LEAST_SIZE * tolerance),
+            absolute_tolerance: absolute?,
             least_step: least,
             greatest_step: greatest,
         }),

@@ -149,9 +149,40 @@ pub(super) fn connect_signals(
         connections.push(MarkedConnection {
             from: connection.from.clone(),
             to: connection.to.clone(),
+            start: start_of(scene, models, connection)?,
         });
     }
     Ok(connections)
+}
+
+/// Where the search for the signal of a connection begins: as the scene says, or at the first default of an input that takes it, if that is
+/// not 0.
+fn start_of(
+    scene: &Scene,
+    models: &[v1::Model],
+    connection: &Connection,
+) -> Result<Option<f64>, RunError> {
+    let of_one = |other: &&Connection| other.from == connection.from;
+    let all: Vec<&Connection> = scene.connections.iter().filter(of_one).collect();
+    let given = all.iter().find_map(|one| Some((&one.name, one.start?)));
+    if let Some((name, start)) = given {
+        if connection.start.is_some_and(|own| own != start) {
+            let message = format!(
+                "another start value than in connection \"{name}\", which takes the same output"
+            );
+            let key = format!("connection.{}.start", connection.name);
+            let help = "give one of them, or both the same";
+            return Err(scene.error(&key, message, Some(help.into())).into());
+        }
+        return Ok(Some(start));
+    }
+    let default_of = |one: &&Connection| {
+        let (subsystem, input) = &one.to;
+        let inputs = &models[*subsystem].inputs;
+        let described = inputs.iter().find(|variable| variable.name == *input)?;
+        described.default.filter(|value| *value != 0.0)
+    };
+    Ok(all.iter().find_map(default_of))
 }
 
 /// Checks that the model at an end of a connection has the variable that is named there.

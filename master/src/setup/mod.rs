@@ -1,6 +1,7 @@
 //! From a scene and the descriptions of its workers to a run at its first macro point.
 
 mod consistency;
+mod consistent;
 mod degrees;
 mod discover;
 mod geometry;
@@ -9,7 +10,10 @@ mod inside;
 mod options;
 mod panels;
 mod partial;
+mod redundancy;
 mod refusal;
+mod responses;
+mod settle;
 mod signal_loop;
 mod start;
 mod steps;

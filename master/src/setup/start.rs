@@ -10,7 +10,7 @@ use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
-use super::{inside, panels, velocities};
+use super::{consistent, inside, panels, redundancy, velocities};
 use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
@@ -23,7 +23,7 @@ use crate::policies::iteration::IterationControl;
 use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees, units};
 use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
-use crate::system::{Differentiation, System};
+use crate::system::{Differentiation, Outputs, Sizes, System};
 use crate::time::at_start;
 use crate::workers::{Samples, Subsystem, Workers};
 
@@ -73,6 +73,8 @@ impl CoSimulation {
             velocities::choose(scene, &coupled, &models, &mut requests, &mut workers)?;
         let initial = initial_state(scene, &coupled, &layout, &workers, options)?;
         initial.read_outputs(scene.t_start, &layout, &mut workers)?;
+        layout.border = initial.border.clone();
+        let redundancy = redundancy::told(&layout);
         let mut run = assemble(scene, options, layout, workers, initial, highest)?;
         begin(&mut run)?;
         let shows_step = scene.coupling.step_control.is_some();
@@ -93,23 +95,26 @@ impl CoSimulation {
         let mechanism = options
             .record_markers
             .then(|| Mechanism::new(names, &points, &models, &joints, row.columns()));
-        let guard = match scene.coupling.method.parameters().closes_joints() {
-            _ if options.watch_nothing => Guard::off(),
-            false => Guard::of_springs(),
-            true => Guard::of_rigid_joints(),
-        };
         let mut statistics = Statistics::new(&run.layout);
         statistics.free_velocities = free_velocities;
+        statistics.redundancy = redundancy;
         let mut simulation = Self {
             multipliers: vec![0.0; run.layout.rows.len()],
             run,
             sample_row: row.clone(),
             row,
             mechanism,
-            guard,
+            guard: Guard::off(),
             statistics,
         };
         simulation.read_row(at_start(scene.t_start));
+        let size = { &simulation.run.layout }
+            .size(|subsystem, place| simulation.row.output(subsystem, place));
+        simulation.guard = match scene.coupling.method.parameters().closes_joints() {
+            _ if options.watch_nothing => Guard::off(),
+            false => Guard::of_springs(),
+            true => Guard::of_rigid_joints(size),
+        };
         panels::check(scene, &simulation.row)?;
         Ok(simulation)
     }
@@ -146,16 +151,17 @@ fn assemble(
     let subsystems = workers.subsystems.iter();
     let differentiation: Vec<Differentiation> =
         subsystems.map(Subsystem::differentiation).collect();
-    let measuring = measuring(coupling);
-    let jacobian = |(system, levels): (System, &'static [Level])| Jacobian {
-        columns: Columns::new(
-            measuring,
-            levels,
-            &layout,
-            system.unknowns(),
-            &differentiation,
-        ),
-        system,
+    let size = layout.size(|subsystem, place| workers.now().of(subsystem)[place]);
+    let sizes = Sizes {
+        length: size,
+        span: scene.t_end - scene.t_start,
+    };
+    let measuring = measuring(coupling, sizes);
+    let jacobian = |(system, levels): (System, &'static [Level])| {
+        let unknowns = system.unknowns();
+        let mut columns = Columns::new(measuring, levels, &layout, unknowns, &differentiation);
+        columns.foresee(&initial.responses);
+        Jacobian { columns, system }
     };
     let first = plan.step().map_or(0.0, |step| step.length);
     let given = options.degrees.clone();
@@ -272,8 +278,8 @@ fn initial_state(
     let closes_joints = scene.coupling.method.parameters().closes_joints();
     match options.established {
         Some(_) => Ok(InitialState::at_rest(layout.variables())),
-        None if closes_joints => InitialState::find(scene, coupled, layout, workers, accepts_open),
-        None => InitialState::unloaded(scene, layout, workers, accepts_open),
+        None if closes_joints => consistent::find(scene, coupled, layout, workers, accepts_open),
+        None => consistent::unloaded(scene, coupled, layout, workers, accepts_open),
     }
 }
 
@@ -350,12 +356,13 @@ fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<St
 
 /// Where steps or degrees vary, the past nodes of the polynomials do: columns that stay in use must serve with any of them. With Hermite coupling there
 /// are as many powers as shapes, and between lengths they are found more easily: their responses do not pass through zero.
-fn measuring(coupling: &Coupling) -> Measuring {
+fn measuring(coupling: &Coupling, sizes: Sizes) -> Measuring {
     let own_curves = coupling.method.parameters().own_curves();
     let varies = coupling.step_control.is_some() || coupling.has_automatic_degree();
     let stay = coupling.jacobian == scene::Jacobian::Reuse;
     Measuring {
         increment: coupling.increment,
+        sizes,
         basis: match stay && (varies || own_curves.is_some()) {
             true => Basis::Powers,
             false => Basis::Shapes,

@@ -5,6 +5,7 @@ use crate::accuracy::Tolerance;
 use crate::layout::Layout;
 use crate::policies::step_size::{Rule, StepSize};
 use crate::scene::{Scene, StepControl};
+use crate::system::Outputs;
 use crate::time::TimePlan;
 use crate::workers::Workers;
 
@@ -18,10 +19,13 @@ pub(super) fn plan_of(scene: &Scene, options: &Options) -> TimePlan {
     }
 }
 
+/// Motion below this share of the size of a mechanism need not be accurate.
+const LEAST_SIZE: f64 = 1e-3;
+
 /// Against which the errors of degrees are compared where no error is too large: only their ratios matter.
 const ANY_ERROR: StepControl = StepControl {
     tolerance: 1.0,
-    absolute_tolerance: 1e-3,
+    absolute_tolerance: None,
     least_step: 0.0,
     greatest_step: f64::INFINITY,
 };
@@ -40,12 +44,21 @@ pub(super) fn step_size_of(
         (None, _) if coupling.has_automatic_degree() => (Rule::Equal, ANY_ERROR),
         (None, _) => return None,
     };
-    let tolerances = [control.tolerance, control.absolute_tolerance];
+    let now = workers.now();
+    let tolerance = control.tolerance;
+    let absolute = match control.absolute_tolerance {
+        Some(given) => [given; 2],
+        None => {
+            let size = layout.size(|subsystem, place| now.of(subsystem)[place]);
+            [size, 1.0].map(|size| LEAST_SIZE * size * tolerance)
+        }
+    };
     let tolerance = Tolerance::new(
-        tolerances,
+        tolerance,
+        absolute,
         layout,
         solver_tolerances(workers),
-        &workers.now(),
+        &now,
     );
     let span = [coupling.macro_step, scene.t_end];
     Some(StepSize::new(rule, control, span, tolerance))

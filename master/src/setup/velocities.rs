@@ -3,7 +3,7 @@
 use linchpin_proto::v1::{self, value::Kind};
 use nalgebra::{DMatrix, DVector};
 
-use super::initial::{InitialState, evaluate_all};
+use super::initial::InitialState;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{Coupled, Layout};
@@ -37,13 +37,13 @@ pub(super) fn choose(
     }
     let layout = Layout::new(coupled, Level::Velocity)
         .map_err(|lacks| super::discover::refuse_marker(scene, lacks))?;
-    let start = conditions(scene, &layout, workers)?;
+    let start = conditions(scene, coupled, &layout, workers)?;
     let mut influence = DMatrix::zeros(layout.rows.len(), free.len());
     for (column, (number, velocity)) in free.iter().enumerate() {
         let request = &mut requests[*number];
         set(request, &velocity.parameter, velocity.given + UNIT);
         workers.restart(scene, *number, models, request)?;
-        let moved = conditions(scene, &layout, workers)?;
+        let moved = conditions(scene, coupled, &layout, workers)?;
         set(request, &velocity.parameter, velocity.given);
         workers.restart(scene, *number, models, request)?;
         for (row, (moved, start)) in moved.iter().zip(&start).enumerate() {
@@ -114,11 +114,11 @@ fn free_velocities(
 /// `g` and `g'` of every row at the start.
 fn conditions(
     scene: &Scene,
+    coupled: &Coupled<'_>,
     layout: &Layout,
     workers: &Workers,
 ) -> Result<Vec<[f64; 2]>, RunError> {
-    let state = InitialState::read(scene, layout, workers, None)?;
-    let outputs = evaluate_all(layout, workers, scene.t_start, &state)?;
+    let (_, outputs) = InitialState::read(scene, coupled, layout, workers, None)?;
     let conditions = layout.rows.iter().map(|row| {
         let motion = motion_of(layout, row.joint, |subsystem| &outputs[subsystem]);
         let condition = layout.joints[row.joint].joint.condition(row.condition);

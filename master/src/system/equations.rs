@@ -6,9 +6,10 @@ use super::column::Column;
 use super::entries::visit_entries;
 use super::pattern::Pattern;
 use super::point::Point;
+use super::solve::LinearSolver;
 use super::unknowns::Unknowns;
 use crate::joint::{Jet, Level, Motion};
-use crate::layout::Layout;
+use crate::layout::{Border, Layout};
 
 /// `g` and its derivatives `G` with respect to the unknowns on every level. The rows are the conditions of the joints, then
 /// those of the exchanged variables: `w - y = 0`, which is the same on every level; but for variables that have their rate
@@ -17,6 +18,8 @@ use crate::layout::Layout;
 pub struct System {
     pub(super) level: Level,
     pub(super) rows: usize,
+    /// Conditions of the joints that follow from others.
+    pub(super) border: Border,
     pub(super) unknowns: Unknowns,
     /// Parts of all unknowns in the conditions of exchanged variables, by level.
     pub(super) units: Vec<[f64; 3]>,
@@ -88,6 +91,7 @@ impl System {
         Self {
             level,
             rows: layout.rows.len(),
+            border: layout.border.clone(),
             units: unknowns.units().to_vec(),
             moments: None,
             unknowns,
@@ -220,6 +224,17 @@ impl System {
             &self.jacobians[level as usize],
             &mut self.rhs,
         )
+    }
+
+    /// A solver for the equations of one level, or of a sum of them.
+    pub fn solver(&self) -> LinearSolver {
+        self.solver_of(&self.pattern)
+    }
+
+    /// A solver for other equations of the same unknowns.
+    pub fn solver_of(&self, pattern: &Pattern) -> LinearSolver {
+        let unknowns: Vec<_> = (0..self.rows).map(|row| self.unknowns.of(row)).collect();
+        LinearSolver::bordered(pattern, &self.border, &unknowns)
     }
 
     /// `-g` of one level, in memory that may be written over.

@@ -24,7 +24,7 @@ pub mod solve;
 pub mod unknowns;
 
 pub use answers::{Differentiation, LookAhead, Outputs, Perturbation};
-pub use column::{Column, Increment, Response, moved};
+pub use column::{Column, Increment, Listening, Response, Sizes, moved};
 pub use equations::{Moments, System, Weights};
 pub use motion::motion_of;
 pub use point::Point;

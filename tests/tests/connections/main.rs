@@ -6,6 +6,7 @@ mod drive;
 mod feedthrough;
 mod mechanism;
 mod mistakes;
+mod nonlinear_loops;
 mod processes;
 mod unresolved;
 

@@ -88,7 +88,8 @@ fn a_step_that_a_worker_cannot_take_is_repeated_and_leaves_no_trace() {
                 continue;
             }
             let scene = variable(coupling);
-            let found = run_brittle(&scene, judge, Way::Direct, &Options::default()).unwrap();
+            let found = run_brittle(&scene, judge, Way::Direct, &Options::default())
+                .unwrap_or_else(|error| panic!("{name}, {coupling}: {error}"));
             let context = format!("{name}, {coupling}: {:?}", found.statistics.steps);
             let steps = found.statistics.steps.unwrap();
             let failed = steps.rejected_by_cause.failed;

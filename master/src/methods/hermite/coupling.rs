@@ -107,14 +107,12 @@ impl HermiteCoupling {
             before: curves.clone(),
             held: vec![0.0; size],
             curves,
-            solver: LinearSolver::new(stack.pattern()),
-            nested_solver: LinearSolver::new(stack.pattern()),
+            solver: stack.solver(&end),
+            nested_solver: stack.solver(&end),
             degree: family.degree,
             last_degree: family.degree,
             relaxed: Vec::new(),
-            point_solver: point
-                .as_ref()
-                .map(|system| LinearSolver::new(system.pattern())),
+            point_solver: point.as_ref().map(System::solver),
             stack,
             sample,
             settled,

@@ -5,6 +5,7 @@ use crate::joint::Level;
 use crate::layout::Layout;
 use crate::system::System;
 use crate::system::pattern::Pattern;
+use crate::system::solve::LinearSolver;
 
 /// The conditions of one macro step, one for each unknown: of a joint's row `g'' = 0` at the start where the variant has it,
 /// `g = 0` and `g' = 0` at the end and moments of `g` over the step, of exchanged motion `w - y = 0`, `H (w' - y') = 0` and moments of
@@ -108,6 +109,12 @@ impl Stack {
         }
     }
 
+    /// A solver for the equations, whose unknowns are those of the system at the `end` of the step. A condition of a joint that follows from others
+    /// does so at the start, at the end and inside the step.
+    pub fn solver(&self, end: &System) -> LinearSolver {
+        end.solver_of(&self.pattern)
+    }
+
     /// The place of the first condition of a variable at the end of the step.
     pub fn first_end(&self, variable: usize) -> usize {
         let row = &self.rows[variable];
@@ -161,11 +168,6 @@ impl Stack {
     /// Adds to the residual of one row.
     pub fn add_residual(&mut self, place: usize, value: f64) {
         self.residual[place] += value;
-    }
-
-    /// Which entries the Jacobian may have.
-    pub fn pattern(&self) -> &Pattern {
-        &self.pattern
     }
 
     /// Puts the Jacobian together for a step of length `step`.

@@ -37,15 +37,16 @@ pub struct Kept {
 }
 
 impl Kept {
-    /// For the frames and outputs of `layout`, of which those on `levels` count; responses `stay` in use after their macro step, or not.
-    pub fn new(layout: &Layout, levels: &'static [Level], stay: bool) -> Self {
+    /// For the frames and outputs of `layout`, of which those on `levels` count, in a mechanism of `size` m; responses `stay` in use after
+    /// their macro step, or not.
+    pub fn new(layout: &Layout, levels: &'static [Level], stay: bool, size: f64) -> Self {
         Self {
             settled: Vec::with_capacity(if stay { SETTINGS.most_kinds } else { 0 }),
             stay,
             pending: Measured::default(),
             attitudes: Vec::new(),
             is_pending: false,
-            between: Between::new(layout, levels),
+            between: Between::new(layout, levels, size),
             kind: Kind::default(),
             last: Kind::default(),
             is_between: false,

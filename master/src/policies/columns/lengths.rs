@@ -29,32 +29,46 @@ pub struct Between {
     levels: &'static [Level],
     /// For each subsystem and coupling output its power of the length.
     powers: Vec<Vec<i32>>,
+    /// What each of them is multiplied by in sizes: angles by the size of the mechanism, so that they are lengths as well.
+    arms: Vec<Vec<f64>>,
     found: Measured,
     /// Responses over the nearest lengths, turned to one attitude.
     turned: [Vec<Vec<f64>>; MOST_SUPPORTS],
 }
 
 impl Between {
-    /// For the outputs of `layout`, of which those on `levels` count. Those that no joint reads are taken for positions: whatever their power, the
-    /// inverse is a polynomial of degree 2 at most.
-    pub fn new(layout: &Layout, levels: &'static [Level]) -> Self {
+    /// For the outputs of `layout`, of which those on `levels` count, in a mechanism of `size` m. Those that no joint reads are taken for
+    /// positions: whatever their power, the inverse is a polynomial of degree 2 at most.
+    pub fn new(layout: &Layout, levels: &'static [Level], size: f64) -> Self {
         let outputs = layout.outputs.iter();
         let mut powers: Vec<Vec<i32>> = outputs.map(|own| vec![POWERS[0]; own.len()]).collect();
+        let mut arms: Vec<Vec<f64>> = powers.iter().map(|own| vec![1.0; own.len()]).collect();
         for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
             for (&level, power) in Level::ALL.iter().zip(POWERS) {
-                for place in end.places(level) {
-                    powers[end.subsystem][place] = power;
+                for position in end.sized(level) {
+                    powers[end.subsystem][position.place] = power;
+                    arms[end.subsystem][position.place] =
+                        if position.is_length { 1.0 } else { size };
                 }
+            }
+        }
+        for frame in &layout.frames {
+            for &place in &frame.attitude {
+                arms[frame.subsystem][place] = size;
             }
         }
         // What is told inside a step are positions and their means.
         for (subsystem, powers) in powers.iter_mut().enumerate() {
             let size = powers.len() + layout.inside.values(subsystem);
             powers.resize(size, POWERS[0]);
+            let told = layout.inside.places_of(subsystem);
+            let told: Vec<f64> = told.map(|place| arms[subsystem][place]).collect();
+            arms[subsystem].extend(told);
         }
         Self {
             levels,
             powers,
+            arms,
             found: Measured::default(),
             turned: Default::default(),
         }
@@ -95,14 +109,15 @@ impl Between {
         let responses = &mut self.found.responses;
         responses.resize_with(nearest.responses.len(), Vec::new);
         let mut changed: f64 = 0.0;
-        for (subsystem, powers) in self.powers.iter().enumerate() {
+        for (subsystem, (powers, arms)) in self.powers.iter().zip(&self.arms).enumerate() {
             for own in &of_input[layout.input_range(subsystem)] {
                 let mut whole = [Part::default(); POWERS.len()];
                 for place in own.clone() {
                     let turned = &self.turned;
                     let support = |number: usize| &turned[number][place][..];
+                    let outputs = (&powers[..], &arms[..]);
                     let parts =
-                        interpolate(lengths, length, support, powers, &mut responses[place]);
+                        interpolate(lengths, length, support, outputs, &mut responses[place]);
                     for (whole, part) in whole.iter_mut().zip(parts) {
                         whole.take(part);
                     }
@@ -149,7 +164,7 @@ fn interpolate<'a>(
     lengths: &[f64],
     length: f64,
     support: impl Fn(usize) -> &'a [f64],
-    powers: &[i32],
+    (powers, arms): (&[i32], &[f64]),
     found: &mut Vec<f64>,
 ) -> [Part; POWERS.len()] {
     found.clear();
@@ -162,19 +177,20 @@ fn interpolate<'a>(
         let places = || (0..powers.len()).filter(|&place| powers[place] == power);
         let mut sizes = [0.0; MOST_SUPPORTS];
         for (number, size) in sizes[..lengths.len()].iter_mut().enumerate() {
-            *size = norm(places().map(|place| support(number)[place]));
+            *size = norm(places().map(|place| arms[place] * support(number)[place]));
         }
         let sizes = &sizes[..lengths.len()];
         if sizes.iter().all(|size| *size == 0.0) {
             continue;
         }
         let along = |number: usize, place: usize| support(number)[place] / sizes[number];
-        let fine = Block::new(lengths, sizes, length, power, places(), along);
+        let sized = || places().map(|place| (place, arms[place]));
+        let fine = Block::new(lengths, sizes, length, power, sized(), along);
         let nearer = lengths.len() - 1;
         let (near_lengths, near_sizes) = (&lengths[..nearer], &sizes[..nearer]);
-        let coarse = Block::new(near_lengths, near_sizes, length, power, places(), along);
-        let difference =
-            places().map(|place| fine.value(place, along) - coarse.value(place, along));
+        let coarse = Block::new(near_lengths, near_sizes, length, power, sized(), along);
+        let difference = sized()
+            .map(|(place, arm)| arm * (fine.value(place, along) - coarse.value(place, along)));
         *part = Part {
             size: fine.size,
             changed: norm(difference),
@@ -199,7 +215,7 @@ impl Block {
         sizes: &[f64],
         length: f64,
         power: i32,
-        places: impl Iterator<Item = usize>,
+        sized: impl Iterator<Item = (usize, f64)>,
         along: impl Fn(usize, usize) -> f64,
     ) -> Self {
         let mut block = Self {
@@ -217,7 +233,7 @@ impl Block {
             block.weights[number] = weight;
             inverse += weight * own.powi(power) / size;
         }
-        let direction = norm(places.map(|place| block.direction(place, &along)));
+        let direction = norm(sized.map(|(place, arm)| arm * block.direction(place, &along)));
         // A size that has passed through infinity is none.
         if inverse > 0.0 {
             block.size = length.powi(power) / inverse;
@@ -276,7 +292,13 @@ mod tests {
     fn found(response: impl Fn(f64) -> [f64; 3], lengths: &[f64], h: f64) -> (Vec<f64>, [f64; 3]) {
         let measured: Vec<[f64; 3]> = lengths.iter().map(|&length| response(length)).collect();
         let mut found = Vec::new();
-        let parts = interpolate(lengths, h, |number| &measured[number], &POWERS, &mut found);
+        let parts = interpolate(
+            lengths,
+            h,
+            |number| &measured[number],
+            (&POWERS, &[1.0; 3]),
+            &mut found,
+        );
         (found, parts.map(Part::share))
     }
 
@@ -348,7 +370,7 @@ mod tests {
     #[test]
     fn one_length_more_is_needed_than_is_known() {
         let mut found = vec![1.0];
-        let parts = interpolate(&[1.0, 2.0], 1.5, |_| &[], &POWERS, &mut found);
+        let parts = interpolate(&[1.0, 2.0], 1.5, |_| &[], (&POWERS, &[1.0; 3]), &mut found);
         assert!(found.is_empty() && parts.iter().all(|part| part.share() == 0.0));
     }
 
@@ -365,7 +387,7 @@ mod tests {
             let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
             let find = |vectors: [[f64; 2]; 3]| {
                 let mut found = Vec::new();
-                let parts = interpolate(&lengths, h, |number| &vectors[number], &[2, 2], &mut found);
+                let parts = interpolate(&lengths, h, |number| &vectors[number], (&[2, 2], &[1.0; 2]), &mut found);
                 ([found[0], found[1]], parts[0].share())
             };
             let (plain, share) = find(vectors);

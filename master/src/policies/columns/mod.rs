@@ -17,10 +17,12 @@ mod settings;
 use std::ops::Range;
 
 use crate::joint::Level;
-use crate::layout::{DrivenInput, Layout};
+use crate::layout::{DrivenInput, Layout, Position};
 use crate::signal::{Curves, Nodes, SharePolynomial};
 use crate::system::unknowns::Unknowns;
-use crate::system::{Column, Differentiation, Increment, LookAhead, Perturbation, Response};
+use crate::system::{
+    Column, Differentiation, Increment, Listening, LookAhead, Perturbation, Response, Sizes,
+};
 
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +31,9 @@ use measured::{Kind, Measured};
 pub use resolution::Resolution;
 pub(crate) use settings::SETTINGS;
 pub use settings::Settings;
+
+/// Part of the largest response of a subsystem by which loads are raised that hardly move it.
+const LEAST_RESPONSE: f64 = 1e-4;
 
 /// The columns of all driven inputs, one for each shape of an input.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +59,16 @@ pub struct Columns {
     needed: Vec<bool>,
     /// The responses to them, as they were last measured or carried along.
     responses: Vec<Vec<f64>>,
-    /// Places of the markers' positions in the coupling outputs of each subsystem.
-    positions: Vec<Vec<usize>>,
+    /// The markers' positions among the coupling outputs of each subsystem.
+    positions: Vec<Vec<Position>>,
+    /// For each input whether it is a length, and whether a moment.
+    kinds: Vec<[bool; 2]>,
+    /// The largest responses of each subsystem to forces and to moments.
+    largest: Vec<[Response; 2]>,
+    /// What motion is measured by at the present macro point.
+    sizes: Sizes,
+    /// Size of the mechanism in m at the end of the look-ahead.
+    length_ahead: f64,
     /// Whether the last look-ahead was asked for responses that were not taken yet.
     are_fresh: bool,
     kept: Kept,
@@ -71,6 +84,8 @@ pub struct State {
     last: Kind,
     /// For each raised input the response by which increments are chosen.
     responses: Vec<Response>,
+    /// Size of the mechanism in m.
+    size: f64,
     resolution: Resolution,
 }
 
@@ -79,6 +94,8 @@ pub struct State {
 pub struct Measuring {
     /// How much inputs are raised.
     pub increment: Increment,
+    /// What motion is measured by at the start.
+    pub sizes: Sizes,
     /// In which curves.
     pub basis: Basis,
     /// Whether responses stay in use after their macro step.
@@ -132,6 +149,7 @@ impl Columns {
     ) -> Self {
         let Measuring {
             increment,
+            sizes,
             basis,
             stay,
         } = measuring;
@@ -149,8 +167,12 @@ impl Columns {
             needed: Vec::new(),
             responses: Vec::new(),
             positions: positions_of(layout),
+            kinds: kinds_of(layout),
+            largest: vec![[Response::default(); 2]; layout.outputs.len()],
+            length_ahead: sizes.length,
+            sizes,
             are_fresh: false,
-            kept: Kept::new(layout, levels, stay),
+            kept: Kept::new(layout, levels, stay, sizes.length),
             resolution: Resolution::new(layout),
             length: 0.0,
         };
@@ -180,6 +202,7 @@ impl Columns {
             settled,
             last,
             responses: self.raised.iter().map(Column::kept_response).collect(),
+            size: self.sizes.length,
             resolution: self.resolution.clone(),
         }
     }
@@ -191,7 +214,41 @@ impl Columns {
         for (raised, response) in self.raised.iter_mut().zip(state.responses) {
             raised.resume_response(response);
         }
+        (self.sizes.length, self.length_ahead) = (state.size, state.size);
         self.resolution = state.resolution;
+    }
+
+    /// Foresees the responses to loads, for each driven input one where it is known.
+    pub fn foresee(&mut self, responses: &[Option<Response>]) {
+        for (own, response) in self.raised_of_input.iter().zip(responses) {
+            if let Some(response) = response {
+                let raised = self.raised[own.clone()].iter_mut();
+                raised.for_each(|raised| raised.resume_response(*response));
+            }
+        }
+    }
+
+    /// Takes the largest responses of each subsystem to forces and to moments; where there are none of one kind, they are those of the other
+    /// with an arm of the size of the mechanism.
+    fn take_largest(&mut self, layout: &Layout) {
+        self.largest.fill([Response::default(); 2]);
+        for (number, input) in layout.inputs.iter().enumerate() {
+            let [_, is_moment] = self.kinds[number];
+            let largest = &mut self.largest[input.subsystem][usize::from(is_moment)];
+            for raised in &self.raised[self.raised_of_input[number].clone()] {
+                if raised.is_load {
+                    *largest = largest.larger(raised.kept_response());
+                }
+            }
+        }
+        let arm = self.sizes.length;
+        for [of_force, of_moment] in &mut self.largest {
+            if of_force.share == 0.0 {
+                *of_force = of_moment.times(arm);
+            } else if of_moment.share == 0.0 {
+                *of_moment = of_force.times(1.0 / arm);
+            }
+        }
     }
 
     /// The columns in the order of the inputs; those of inputs that are not perturbed are empty.
@@ -225,6 +282,7 @@ impl Columns {
         }
         self.asked.clear();
         if with_columns {
+            self.take_largest(layout);
             self.raised_of_subsystem.fill(0);
             for (number, input) in layout.inputs.iter().enumerate() {
                 if input.is_perturbed {
@@ -265,6 +323,18 @@ impl Columns {
         let is_read = !layout.outputs[input.subsystem].is_empty();
         let Differentiation { noise, .. } = self.differentiation[input.subsystem];
         let gives_derivatives = self.gives_derivatives(input.subsystem);
+        let [is_length, is_moment] = self.kinds[number];
+        let unit = if is_length { self.sizes.length } else { 1.0 };
+        let largest = self.largest[input.subsystem][usize::from(is_moment)];
+        let curves =
+            { self.raised[self.raised_of_input[number].clone()].iter() }.map(Column::kept_response);
+        let of_others = curves.fold(largest.times(LEAST_RESPONSE), Response::larger);
+        let listening = Listening {
+            length: self.length,
+            noise,
+            span: self.sizes.span,
+            of_others,
+        };
         let shapes = &self.shapes[self.of_input[number].clone()];
         let own = self.raised_of_input[number].clone();
         let needed = &self.needed[own.clone()];
@@ -276,8 +346,8 @@ impl Columns {
             };
             *count += 1;
             let increment = (!gives_derivatives).then(|| {
-                let audible = noise.map(|noise| raised.audible(self.length, noise));
-                raised.choose_increment(self.rule, end, audible);
+                let least = raised.least(end, listening);
+                raised.choose_increment(self.rule, end, least, unit);
                 raised.increment
             });
             self.asked.push(Perturbation {
@@ -313,6 +383,7 @@ impl Columns {
     /// whether the macro step before was such a one.
     pub fn begin(&mut self, length: f64, nodes: Nodes<'_>) -> bool {
         self.raised.iter_mut().for_each(Column::drop_response);
+        self.length_ahead = self.sizes.length;
         self.kept.begin(length, self.basis.nodes(nodes))
     }
 
@@ -320,6 +391,7 @@ impl Columns {
     pub fn settle(&mut self) {
         self.kept.settle();
         self.raised.iter_mut().for_each(Column::keep_response);
+        self.sizes.length = self.length_ahead;
     }
 
     /// Takes the difference quotients of the last answers of all workers, if columns were asked for; otherwise carries earlier
@@ -340,6 +412,9 @@ impl Columns {
 
     fn take_responses(&mut self, layout: &Layout, ahead: &dyn LookAhead) {
         self.resolution.begin();
+        let reached =
+            layout.largest_position(|subsystem, place| ahead.unperturbed(subsystem)[place]);
+        self.length_ahead = self.sizes.length.max(reached);
         for (number, input) in layout.inputs.iter().enumerate() {
             for (curve, place) in self.raised_of_input[number].clone().enumerate() {
                 self.responses[place].clear();
@@ -369,7 +444,7 @@ impl Columns {
             let perturbed = ahead.perturbed(subsystem, asked);
             raised.difference(ahead.unperturbed(subsystem), perturbed);
         }
-        raised.note_response(&self.positions[subsystem], self.length);
+        raised.note_response(&self.positions[subsystem], self.length, self.sizes.length);
         std::mem::swap(&mut self.responses[place], &mut raised.derivatives);
     }
 
@@ -414,11 +489,18 @@ fn add_up<'a>(terms: impl Iterator<Item = (&'a Vec<f64>, &'a f64)>, sums: &mut V
     }
 }
 
-/// Places of the markers' positions in the coupling outputs of each subsystem.
-fn positions_of(layout: &Layout) -> Vec<Vec<usize>> {
+/// The markers' positions among the coupling outputs of each subsystem.
+fn positions_of(layout: &Layout) -> Vec<Vec<Position>> {
     let mut positions = vec![Vec::new(); layout.outputs.len()];
     for end in layout.joints.iter().flat_map(|joint| &joint.ends) {
-        positions[end.subsystem].extend(end.positions());
+        positions[end.subsystem].extend(end.sized(Level::Position));
     }
     positions
+}
+
+/// For each input whether it is the coordinate of a marker, and whether a moment.
+fn kinds_of(layout: &Layout) -> Vec<[bool; 2]> {
+    let inputs = layout.inputs.iter();
+    let kind = |input| [layout.is_length(input), layout.is_moment(input)];
+    inputs.map(kind).collect()
 }

@@ -86,8 +86,13 @@ pub struct State {
     length: f64,
     /// Macro steps of this length in a row that needed passes with columns of other lengths.
     borrowed: u32,
-    /// Size of the first correction of the step.
+    /// Size of the first correction of the step, relative to usual ones and to the variables.
     first: f64,
+    first_of_size: f64,
+    /// Largest share that corrections have missed that were not rounding, older ones counting less.
+    curved: f64,
+    /// Size of first corrections relative to the variables while nothing grows.
+    calm: f64,
     last: Change,
     /// What passes do not take away: rounding and the errors of the solvers.
     noise: f64,
@@ -106,6 +111,7 @@ impl IterationControl {
             state: State {
                 are_fresh: true,
                 come_next: true,
+                calm: f64::MAX,
                 ..State::default()
             },
         }
@@ -154,7 +160,7 @@ impl IterationControl {
             let trusted = self.unknown_rate.filter(|_| change.of_allowed.is_none());
             state.left_by_first = state.rate.or(trusted).zip(off).map(larger);
         }
-        state.first = change.of_usual;
+        (state.first, state.first_of_size) = (change.of_usual, change.of_size);
     }
 
     /// Whether the step has to be corrected once more, and then whether with new columns.
@@ -220,6 +226,14 @@ impl IterationControl {
             // Where steps are fixed only what is known to be left of what is bearable counts, beside the rule below.
             match self.varies {
                 true => return change > most && left.is_none_or(leaves),
+                false if change <= self.settings.nothing => return false,
+                // Corrections that grow from step to step feed on what the ones before have left.
+                false
+                    if state.curved > self.settings.linear
+                        && state.first_of_size > self.settings.grown * state.calm =>
+                {
+                    return state.last.of_size > state.calm;
+                }
                 false
                     if change > most
                         && left.is_some_and(|left| left > self.settings.linear && leaves(left)) =>
@@ -249,6 +263,7 @@ impl IterationControl {
     pub fn note_pass(&mut self, change: Change, with_columns: bool) {
         let state = &mut self.state;
         let rate = rate(change.of_usual, state.last.of_usual);
+        state.note_curved(rate, &self.settings);
         if state.passes.count == 0 {
             state.left_by_first = Some(rate);
         }
@@ -322,6 +337,8 @@ impl IterationControl {
     /// The step is taken after all its corrections: what they tell decides about the columns of the next one, however often that is tried.
     pub fn accept(&mut self, step: MacroStep) {
         let (slow, state) = (self.settings.slow, &mut self.state);
+        let calm = state.first_of_size.max(self.settings.least_calm);
+        state.calm = calm.min(self.settings.memory * state.calm);
         state.is_slow = state.rate.is_some_and(|rate| rate > slow);
         let is_borrowed = state.off_by_length.is_some_and(|off| off > 0.0);
         let before = if step.length == state.length {
@@ -361,11 +378,12 @@ impl IterationControl {
 
     /// After the step: an advance shows what was missed without a pass.
     pub fn learn(&mut self, missed: Missed) {
+        let of_last = rate(missed.by_last, self.state.last.of_usual);
+        self.state.note_curved(of_last, &self.settings);
         let is_noise = self.listen(missed);
         match self.state.are_fresh {
             // What new columns leave says nothing of how they serve in later steps.
             true => {
-                let of_last = rate(missed.by_last, self.state.last.of_usual);
                 self.state.fresh_rate = Some(of_last);
                 self.state.curvature = curvature(of_last, self.state.last);
                 (self.state.rate, self.state.left_by_first) = (None, None);
@@ -413,6 +431,20 @@ impl IterationControl {
     /// Goes on from what was written.
     pub fn resume(&mut self, state: State) {
         self.state = state;
+    }
+}
+
+impl State {
+    /// The last correction has missed a share.
+    fn note_curved(&mut self, rate: f64, settings: &Settings) {
+        self.curved *= settings.fading;
+        if self
+            .last
+            .of_allowed
+            .is_some_and(|change| change > settings.nothing)
+        {
+            self.curved = self.curved.max(rate);
+        }
     }
 }
 

@@ -7,8 +7,8 @@ use serde::Serialize;
 pub struct StepControl {
     /// Error of positions relative to their size.
     pub tolerance: f64,
-    /// Error in m or rad that is allowed whatever the size; default 1e-3 of the tolerance.
-    pub absolute_tolerance: f64,
+    /// Error in m or rad that is allowed whatever the size; absent: 1e-3 of the tolerance, for lengths times the size of the mechanism.
+    pub absolute_tolerance: Option<f64>,
     /// Shortest macro step in s; default 1e-9 of the simulated time.
     pub least_step: f64,
     /// Longest macro step in s; default a tenth of the simulated time.

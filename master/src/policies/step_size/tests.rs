@@ -21,7 +21,7 @@ const FIRST: f64 = 3e-3;
 fn controller() -> StepSize {
     let control = StepControl {
         tolerance: 1e-6,
-        absolute_tolerance: 1e-9,
+        absolute_tolerance: Some(1e-9),
         least_step: 1e-8,
         greatest_step: 1.0,
     };
@@ -34,7 +34,7 @@ fn controller() -> StepSize {
     let Ok(layout) = Layout::new(&coupled, Level::Position) else {
         unreachable!("nothing lacks nothing")
     };
-    let tolerance = Tolerance::new([1e-6, 1e-9], &layout, Vec::new(), &Nothing);
+    let tolerance = Tolerance::new(1e-6, [1e-9; 2], &layout, Vec::new(), &Nothing);
     StepSize::new(Rule::Free, control, [FIRST, 1e3], tolerance)
 }
 

@@ -1,16 +1,20 @@
-//! The linear solver of the coupling system: dense when it is small or full, sparse otherwise.
+//! The linear solver of the coupling system: dense when it is small or full, sparse otherwise, bordered where conditions are redundant.
 
+mod bordered;
 mod dense;
 mod pivot;
 mod sparse;
 #[cfg(test)]
 mod tests;
 
+use bordered::Bordered;
 use dense::Dense;
 pub use pivot::SingularColumn;
 use sparse::Sparse;
 
 use super::pattern::Pattern;
+use crate::layout::Border;
+use std::ops::Range;
 
 /// LU decomposition with partial pivoting of a square matrix with a fixed pattern, in memory that is kept from step to step.
 /// It runs on one thread, so the bits of the solution depend on nothing but the numbers.
@@ -21,6 +25,7 @@ pub struct LinearSolver {
 enum Elimination {
     Dense(Dense),
     Sparse(Box<Sparse>),
+    Bordered(Box<Bordered>),
 }
 
 /// One multiplication of the sparse elimination takes as long as so many of the dense one: measured with full factors, 5 at
@@ -42,6 +47,18 @@ impl LinearSolver {
                 }
             }
             _ => Self::dense(pattern),
+        }
+    }
+
+    /// The solver for matrices of a pattern with redundant conditions, if there is a border; `unknowns` are those of each multiplier.
+    pub fn bordered(pattern: &Pattern, border: &Border, unknowns: &[Range<usize>]) -> Self {
+        match border.is_empty() {
+            true => Self::new(pattern),
+            false => Self {
+                elimination: Elimination::Bordered(Box::new(Bordered::new(
+                    pattern, border, unknowns,
+                ))),
+            },
         }
     }
 
@@ -78,6 +95,7 @@ impl LinearSolver {
         match &mut self.elimination {
             Elimination::Dense(dense) => dense.solve(pattern, values, rhs),
             Elimination::Sparse(sparse) => sparse.solve(pattern, values, rhs),
+            Elimination::Bordered(own) => own.solve(pattern, values, rhs),
         }
     }
 
@@ -87,6 +105,7 @@ impl LinearSolver {
         match &mut self.elimination {
             Elimination::Dense(dense) => dense.substitute(rhs),
             Elimination::Sparse(sparse) => sparse.substitute(rhs),
+            Elimination::Bordered(own) => own.substitute(rhs),
         }
     }
 }
