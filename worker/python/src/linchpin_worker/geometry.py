@@ -88,8 +88,6 @@ def wrench_about(
     return (force[0], force[1], force[2]), (moment[0] + added[0], moment[1] + added[1], moment[2] + added[2])
 
 
-def moment_about(
-    centre: Sequence[float], point: Sequence[float], force: Sequence[float], moment: float
-) -> float:
+def moment_about(centre: Sequence[float], point: Sequence[float], force: Sequence[float], moment: float) -> float:
     """In the plane: the moment (N m) about `centre` of a force `(fx, fy)` at `point` and a moment about `point`."""
     return moment + (point[0] - centre[0]) * force[1] - (point[1] - centre[1]) * force[0]

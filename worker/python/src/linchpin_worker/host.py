@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any
+from typing import Any, TypeVar
 
 from ._contract import worker_pb2 as pb
 from .description import Description, DescriptionError
@@ -20,6 +20,9 @@ from .signals import Signals
 from .slot import Slot
 from .solver import guarded
 from .subsystem import Subsystem, check_model
+
+Made = TypeVar("Made")
+Reply = TypeVar("Reply", pb.SnapshotReply, pb.RestoreReply, pb.StepReply, pb.PerturbedStepReply)
 
 PROTOCOL = pb.ProtocolVersion(major=1, minor=3)
 
@@ -147,7 +150,8 @@ class Host:
     def _build(self, request: pb.InitializeRequest) -> Instance:
         theirs = request.protocol
         if theirs.major != PROTOCOL.major:
-            sides = f"this side speaks linchpin {PROTOCOL.major}.{PROTOCOL.minor}, the other side speaks {shown(request)}"
+            own = f"{PROTOCOL.major}.{PROTOCOL.minor}"
+            sides = f"this side speaks linchpin {own}, the other side speaks {shown(request)}"
             raise misuse("protocol", f"incompatible protocol: {sides}; use builds with the same major number")
         description = self._described(request.model, request.parameters)
         signals = Signals(description.inputs, request)
@@ -172,10 +176,10 @@ class Host:
             return slot
 
 
-def built(make: Any) -> Any:
+def built(make: Callable[[], Made]) -> Made:
     """What the author's code makes of a request; a `Refused` is misuse, anything else ends the run."""
 
-    def refusable() -> Any:
+    def refusable() -> Made | CallFailed:
         try:
             return make()
         except Refused as refused:
@@ -195,7 +199,7 @@ def plain(value: pb.Value) -> object:
     return list(value.numbers.values) if KINDS[case] is list else getattr(value, case)
 
 
-def labelled(reply: Any, request: Any) -> Any:
+def labelled(reply: Reply, request: Any) -> Reply:
     """The reply with the numbers of its request."""
     reply.instance, reply.sequence = request.instance, request.sequence
     return reply

@@ -68,7 +68,7 @@ def values_type(names: Sequence[str], joint_inputs: int, joint_loads: Sequence[J
     """A function that makes the values of inputs `names` of a list in which those of the joint inputs follow."""
     plain = namedtuple("Inputs", names, rename=True)  # type: ignore[misc]
     if joint_inputs == 0:
-        return type("Inputs", (_Plain, plain), {"__slots__": ()})._make
+        return type("Inputs", (_Plain, plain), {"__slots__": ()})._make  # type: ignore[attr-defined]
     count = len(names)
     joined = type("Inputs", (_Joined, plain), {"joint_loads": joint_loads})
 

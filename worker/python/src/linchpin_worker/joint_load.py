@@ -6,7 +6,7 @@ from collections.abc import Mapping, MutableSequence, Sequence
 from dataclasses import dataclass
 
 from .geometry import matrix_of_quaternion, matrix_of_rotation_vector, product
-from .joint_law import A, IDENTITY, ZERO, JointLaw, Pose
+from .joint_law import A, JointLaw, Pose
 
 
 @dataclass(frozen=True)
@@ -51,13 +51,13 @@ class Partner:
         position, rotation, attitude = (
             [signals[place] for place in places] for places in (self.position, self.rotation, self.attitude)
         )
+        x, y, z = (*position, *[0.0] * (3 - len(position)))
         if len(rotation) == 1:
-            return Pose.planar(*(position or (0.0, 0.0)), rotation[0])
-        turn = IDENTITY
+            return Pose.planar(x, y, rotation[0])
         if rotation:
             turn = product(matrix_of_rotation_vector(rotation), matrix_of_quaternion(attitude))
-        x, y, z = (*position, *[0.0] * (3 - len(position))) if position else ZERO
-        return Pose((x, y, z), turn)
+            return Pose((x, y, z), turn)
+        return Pose((x, y, z))
 
 
 @dataclass(frozen=True)

@@ -95,9 +95,9 @@ class Marker:
 
     def lists(self) -> list[tuple[str, Sequence[str], tuple[int, ...]]]:
         """Each list with the lengths that the kind of the marker allows."""
-        if self.kind == pb.MARKER_KIND_SCALAR:
-            position, rates = (1,), (0, 1)
-        else:
+        position: tuple[int, ...] = (1,)
+        rates: tuple[int, ...] = (0, 1)
+        if self.kind != pb.MARKER_KIND_SCALAR:
             form = PLANAR if self.kind == pb.MARKER_KIND_PLANAR else SPATIAL
             position = (0, *form.points)
             rates = (0, form.points[0], len(form.velocity))
@@ -144,14 +144,12 @@ def spatial_marker(
 
 
 def _marker(name: str, form: Form, orientation: bool, velocity: bool, acceleration: bool, load: bool) -> Marker:
-    lists: list[list[Variable]] = []
-    for components, is_offered, default in (
-        (form.position, True, None),
-        (form.velocity, velocity, None),
-        (form.acceleration, acceleration, None),
-        (form.load, load, 0.0),
-    ):
+    def variables(components: Sequence[Component], is_offered: bool, default: float | None = None) -> list[Variable]:
         kept = (components if orientation else components[: form.points[0]]) if is_offered else ()
-        lists.append([Variable(f"{name}_{end}", unit, f'marker "{name}": {words}', default) for end, unit, words in kept])
-    names = [[variable.name for variable in variables] for variables in lists]
-    return Marker(name, form.kind, *names, inputs=lists[3], outputs=[*lists[0], *lists[1], *lists[2]])
+        return [Variable(f"{name}_{end}", unit, f'marker "{name}": {words}', default) for end, unit, words in kept]
+
+    position = variables(form.position, True)
+    velocities, accelerations = variables(form.velocity, velocity), variables(form.acceleration, acceleration)
+    loads = variables(form.load, load, default=0.0)
+    names = ([variable.name for variable in own] for own in (position, velocities, accelerations, loads))
+    return Marker(name, form.kind, *names, loads, [*position, *velocities, *accelerations])  # type: ignore[call-arg, arg-type]

@@ -35,9 +35,7 @@ class Motion:
     The solver itself may stand elsewhere, at the end of a step that was only tried; every call goes back first.
     """
 
-    def __init__(
-        self, subsystem: Subsystem, signals: Signals, description: Description, request: pb.InitializeRequest
-    ) -> None:
+    def __init__(self, subsystem: Subsystem, signals: Signals, description: Description, request: pb.InitializeRequest) -> None:
         known = description.outputs
         if request.integrated_outputs:
             text = f"the model {description.name} does not offer integrals of outputs"
@@ -62,10 +60,7 @@ class Motion:
         """Steps from the committed state, cut at `instants`; `commit` makes the end the committed state."""
         wanted = self._all if outputs == pb.OUTPUT_SET_ALL else self._coupling
         self._go_to(Base.COMMITTED)
-        if instants:
-            values = self._step_cut(interval, instants, wanted)
-        else:
-            values = self._step(interval, wanted)
+        values = self._step_cut(interval, instants, wanted) if instants else self._step(interval, wanted)
         self._advanced = self.solver.keep()
         return values
 
@@ -97,7 +92,7 @@ class Motion:
     def look_ahead(
         self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
     ) -> tuple[list[float], list[pb.Outputs]]:
-        """Coupling outputs at the end of `interval` and interior ones at `instants`, then once more for every perturbed signal."""
+        """Coupling outputs at the end of `interval` and interior ones at `instants`, and again for every perturbed signal."""
         if instants and interval.length > 0.0:
             values, *others = self._look_ahead_cut(base, interval, instants, perturbed)
             self.solver.integrations += 1
@@ -219,9 +214,7 @@ class Motion:
                     states[number] = self.solver.save()
         return [last + interior for last, interior in zip(at_end, inside, strict=True)]
 
-    def _part(
-        self, interval: Interval, part: Part, inputs: Inputs, wanted: Sequence[int], is_repeated: bool
-    ) -> list[float]:
+    def _part(self, interval: Interval, part: Part, inputs: Inputs, wanted: Sequence[int], is_repeated: bool) -> list[float]:
         """Steps over one part, and tells the outputs `wanted` at the end of the step or the interior ones before."""
         own = Interval(interval.start + part.start, part.end - part.start)
         shifted = inputs.starting_at(part.start, own.length)

@@ -12,7 +12,8 @@ from typing import Any
 
 import grpc
 
-from ._contract import wire_pb2, worker_pb2 as pb
+from ._contract import wire_pb2
+from ._contract import worker_pb2 as pb
 from .address import Address, ListenError
 from .failures import CallFailed
 from .hold import Hold, connection
@@ -76,9 +77,7 @@ class Server:
         threading.Thread(target=self._tidy, name="linchpin-worker-tidy", daemon=True).start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, traceback: TracebackType | None) -> None:
         """Takes no new calls; those under way have `GRACE` to finish."""
         if self.address.path:
             # While it still listens the file is its own; later a successor may have put its own there.
@@ -113,9 +112,7 @@ class Server:
             if "instance" in request.DESCRIPTOR.fields_by_name:
                 self._host.hold(request.instance, connection(context.peer(), self.address.path))
 
-    def _exchange(
-        self, requests: Iterator[pb.ExchangeRequest], context: grpc.ServicerContext
-    ) -> Iterator[pb.ExchangeReply]:
+    def _exchange(self, requests: Iterator[pb.ExchangeRequest], context: grpc.ServicerContext) -> Iterator[pb.ExchangeReply]:
         """The turns of a stream, which holds its instance from the first turn on."""
         stream, held = Hold(is_stream=True), None
         if not context.add_callback(stream.end):
@@ -140,9 +137,7 @@ def health() -> grpc.GenericRpcHandler:
             context.abort(grpc.StatusCode.NOT_FOUND, f'no service "{request.service}"; there is {WORKER.full_name}')
         return response(status=response.SERVING)
 
-    def watch(
-        request: wire_pb2.HealthCheckRequest, context: grpc.ServicerContext
-    ) -> Iterator[wire_pb2.HealthCheckResponse]:
+    def watch(request: wire_pb2.HealthCheckRequest, context: grpc.ServicerContext) -> Iterator[wire_pb2.HealthCheckResponse]:
         ended = threading.Event()
         if context.add_callback(ended.set):
             yield response(status=response.SERVING if request.service in known else response.SERVICE_UNKNOWN)

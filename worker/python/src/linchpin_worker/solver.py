@@ -6,7 +6,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
 from itertools import count
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from .failures import StepFailed, fatal, recoverable
 from .inputs import Inputs, Values
@@ -103,9 +103,7 @@ class Solver:
             if self._last_step != (interval, self._stands_at):
                 self._last_step = None
         self._stands_at = NOWHERE
-        told = guarded(
-            interval, lambda: self._subsystem.derivative(interval.start, interval.length, inputs, direction)
-        )
+        told = guarded(interval, lambda: self._subsystem.derivative(interval.start, interval.length, inputs, direction))
         return self._numbers_of("derivative", told, wanted, interval)
 
     def _numbers_of(
@@ -150,11 +148,11 @@ def guarded(interval: Interval | None, call: Callable[[], Answer]) -> Answer:
         raise recoverable(raised(error), interval.start, interval.length) from error
     except (Exception, SystemExit) as error:
         log.exception("the solver raised an exception; it ends the run")
-        t, step = (None, None) if interval is None else interval
-        raise fatal(raised(error), t, step) from error
+        if interval is None:
+            raise fatal(raised(error)) from error
+        raise fatal(raised(error), interval.start, interval.length) from error
 
 
 def raised(error: BaseException) -> str:
     """What an exception of the solver says, in one line."""
-    said: Any = str(error) or "no message"
-    return f"the solver raised {type(error).__name__}: {said}"
+    return f"the solver raised {type(error).__name__}: {str(error) or 'no message'}"

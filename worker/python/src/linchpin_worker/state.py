@@ -19,7 +19,7 @@ class State:
     __slots__ = ("_is_pickled", "_kept")
 
     def __init__(self, saved: Any) -> None:
-        is_plain = type(saved) in IMMUTABLE or type(saved) is tuple and all(type(part) in IMMUTABLE for part in saved)
+        is_plain = type(saved) in IMMUTABLE or (type(saved) is tuple and all(type(part) in IMMUTABLE for part in saved))
         self._is_pickled = not is_plain
         self._kept = saved if is_plain else pickle.dumps(saved, pickle.HIGHEST_PROTOCOL)
 
@@ -30,7 +30,7 @@ class State:
 
 @dataclass(frozen=True)
 class Kept:
-    """A state with its number. Every state that a solver reaches has one, so that a step is known to start where another did."""
+    """A state with its number: every state that a solver reaches has one, so it is known whether two steps begin alike."""
 
     number: int
     state: State

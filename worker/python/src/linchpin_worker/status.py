@@ -2,7 +2,8 @@
 
 import grpc
 
-from ._contract import wire_pb2, worker_pb2 as pb
+from ._contract import wire_pb2
+from ._contract import worker_pb2 as pb
 
 DOMAIN = "linchpin"
 

@@ -46,9 +46,10 @@ class Subsystem:
         raise NotImplementedError
 
     def save(self) -> Any:
-        """The whole state: bytes, a tuple of numbers, or anything that pickle takes. Nothing that decides a step may be missing.
+        """The whole state: bytes, a tuple of numbers, or anything that pickle takes.
 
-        It is copied, so arrays that the solver changes in place may be given as they are.
+        Nothing that decides about a step may be missing. It is copied, so arrays that the solver changes in place may be
+        given as they are.
         """
         raise NotImplementedError
 
