@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from ._contract import worker_pb2 as pb
 from .failures import misuse
+from .readable import number
 
 MAX_INTEGRALS = 8
 """The most integrals of each output that the contract knows."""
@@ -37,7 +38,7 @@ def interval_of_step(start: float, length: float) -> Interval:
     """The interval of a step."""
     if math.isfinite(start) and math.isfinite(length) and length > 0.0:
         return Interval(start, length)
-    text = f"a step from t = {start} s over {length} s: both must be finite, the length greater than 0"
+    text = f"a step from t = {number(start)} s over {number(length)} s: both must be finite, the length greater than 0"
     raise misuse("step", text)
 
 
@@ -52,7 +53,7 @@ def interval_of_evaluation(evaluate: pb.Predict) -> Interval:
     """The interval of an evaluation beside a prediction: its length is 0."""
     if math.isfinite(evaluate.t) and evaluate.step == 0.0:
         return Interval(evaluate.t, 0.0)
-    place = f"an evaluation at t = {evaluate.t} s over {evaluate.step} s"
+    place = f"an evaluation at t = {number(evaluate.t)} s over {number(evaluate.step)} s"
     raise misuse("evaluate.step", f"{place}: t must be finite, the length 0; a step is a prediction")
 
 
@@ -70,8 +71,8 @@ def check_inside(field: str, what: str, offsets: Sequence[float], step: float) -
     earliest = 0.0
     for place, offset in enumerate(offsets):
         if not earliest < offset < step:
-            allowed = f"it must be after {earliest:g} s and before the end of the step at {step:g} s"
-            raise misuse(field, f"{what} {place} is {offset:g} s after the start of the step; {allowed}")
+            allowed = f"it must be after {number(earliest)} s and before the end of the step at {number(step)} s"
+            raise misuse(field, f"{what} {place} is {number(offset)} s after the start of the step; {allowed}")
         earliest = offset
 
 

@@ -11,6 +11,7 @@ from .description import Description
 from .failures import misuse
 from .inputs import Inputs
 from .interval import Interval, Part, check_inside, check_integrals, parts
+from .readable import number
 from .signals import Signals, find
 from .solver import Solver
 from .state import Kept
@@ -153,7 +154,7 @@ class Motion:
     def evaluate(self, request: pb.EvaluateRequest) -> pb.EvaluateReply:
         """Outputs of the committed state by their names, and their derivatives in each direction."""
         if not math.isfinite(request.t):
-            raise misuse("t", f"t = {request.t}: it must be a finite number")
+            raise misuse("t", f"t = {number(request.t)}: it must be a finite number")
         wanted = find(self._description.outputs, request.outputs, "outputs")
         self.take(request.signals)
         self._go_to(Base.COMMITTED)
@@ -204,14 +205,14 @@ class Motion:
         inside: list[list[float]] = [[] for _ in inputs]
         at_end: list[list[float]] = []
         for part in parts(length, instants):
-            for number, own in enumerate(inputs):
-                self.solver.load(states[number])
-                values = self._part(interval, part, own, self._coupling, is_repeated=number > 0)
+            for place, own in enumerate(inputs):
+                self.solver.load(states[place])
+                values = self._part(interval, part, own, self._coupling, is_repeated=place > 0)
                 if part.is_last:
                     at_end.append(values)
                 else:
-                    inside[number] += values
-                    states[number] = self.solver.save()
+                    inside[place] += values
+                    states[place] = self.solver.save()
         return [last + interior for last, interior in zip(at_end, inside, strict=True)]
 
     def _part(self, interval: Interval, part: Part, inputs: Inputs, wanted: Sequence[int], is_repeated: bool) -> list[float]:

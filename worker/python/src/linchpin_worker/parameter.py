@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from . import readable
 from ._contract import worker_pb2 as pb
 from .failures import Refused
 
@@ -54,7 +55,7 @@ class Parameter:
             return getattr(value, case)
         number = finite(field, value.number)
         if not (self.above < number < self.below and self.least <= number <= self.most):
-            raise Refused(field, f"{number!r} is out of range: it must be {self._limits()}")
+            raise Refused(field, f"{readable.number(number)} is out of range: it must be {self._limits()}")
         return number
 
     def _limits(self) -> str:
@@ -64,7 +65,7 @@ class Parameter:
             ("less than", self.below),
             ("at most", self.most),
         )
-        return " and ".join(f"{words} {limit:g}" for words, limit in limits if math.isfinite(limit))
+        return " and ".join(f"{words} {readable.number(limit)}" for words, limit in limits if math.isfinite(limit))
 
 
 @dataclass(frozen=True)
@@ -84,7 +85,7 @@ class Solver:
 def finite(field: str, value: float) -> float:
     """The value of a field, if it is finite."""
     if not math.isfinite(value):
-        raise Refused(field, f"{value} is out of range: it must be a finite number")
+        raise Refused(field, f"{readable.number(value)} is out of range: it must be a finite number")
     return value
 
 

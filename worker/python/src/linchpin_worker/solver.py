@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from itertools import count
 from typing import TypeVar
 
+from . import readable
 from .failures import StepFailed, fatal, recoverable
 from .inputs import Inputs, Values
 from .interval import Interval
@@ -127,7 +128,7 @@ class Solver:
         return numbers
 
     def _not_finite(self, name: str, number: float, interval: Interval) -> Exception:
-        text = f"{name} = {number} at t = {interval.end:.9g} s: it must be finite"
+        text = f"{name} = {readable.number(number)} at t = {readable.number(interval.end)} s: it must be finite"
         if interval.length > 0.0:
             return recoverable(text, interval.end, interval.length, name)
         return fatal(text, interval.end, 0.0, name)
@@ -141,7 +142,7 @@ def guarded(interval: Interval | None, call: Callable[[], Answer]) -> Answer:
         if interval is None:
             raise fatal(str(failed)) from failed
         t = interval.start if failed.t is None else failed.t
-        raise recoverable(f"{failed} at t = {t:.9g} s", t, interval.length) from failed
+        raise recoverable(f"{failed} at t = {readable.number(t)} s", t, interval.length) from failed
     except ArithmeticError as error:
         if interval is None:
             raise fatal(raised(error)) from error
