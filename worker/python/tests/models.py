@@ -158,7 +158,7 @@ class Stand(Subsystem):
     @classmethod
     def described(cls, parameters):
         name = parameters.get("marker")
-        if name is None and "marker" in parameters or not isinstance(name, str | None):
+        if (name is None and "marker" in parameters) or not isinstance(name, str | None):
             raise Refused("parameters.marker", "it must be a text")
         if name is None:
             raise Refused("parameters.marker", "missing; the model needs it as a text")

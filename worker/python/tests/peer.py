@@ -6,6 +6,7 @@ import unittest
 
 import grpc
 import models
+
 from linchpin_worker import Address, Host, Limits, Server
 from linchpin_worker._contract import wire_pb2
 from linchpin_worker._contract import worker_pb2 as pb

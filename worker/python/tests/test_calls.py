@@ -3,10 +3,11 @@
 import math
 
 import models
-from linchpin_worker import Limits
-from linchpin_worker._contract import worker_pb2 as pb
 from models import LEAK, START
 from peer import PROTOCOL, STEP, Driver, Peer, PeerTest, constant, initialize, number, oscillator, tank, through
+
+from linchpin_worker import Limits
+from linchpin_worker._contract import worker_pb2 as pb
 
 RAMP = (through(0, (0.3, 1.9), (0.0, 0.7)), constant(1, 0.1))
 RISE = (0.5 * (1.9 + 0.7) - 0.1) * 0.3
@@ -136,13 +137,13 @@ class Calls(PeerTest):
         driver = self.drive()
         driver.step(0.0, 0.3, *RAMP)
         last = driver.sequence
-        for number in (last - 1, last + 2, 0, (1 << 64) - 1):
+        for wrong in (last - 1, last + 2, 0, (1 << 64) - 1):
             for kind in ("Step", "PerturbedStep", "Snapshot", "Restore"):
-                request = getattr(pb, f"{kind}Request")(instance=5, sequence=number)
-                call = lambda kind=kind, request=request: self.peer.call(kind, request)  # noqa: E731
-                self.assert_misuse("sequence", call, number, f"after {last}", last + 1)
-            turn = pb.ExchangeRequest(instance=5, sequence=number)
-            self.assert_misuse("sequence", lambda turn=turn: self.peer.stream().turn(turn), number, last + 1)
+                request = getattr(pb, f"{kind}Request")(instance=5, sequence=wrong)
+                call = lambda kind=kind, request=request: self.peer.call(kind, request)
+                self.assert_misuse("sequence", call, wrong, f"after {last}", last + 1)
+            turn = pb.ExchangeRequest(instance=5, sequence=wrong)
+            self.assert_misuse("sequence", lambda turn=turn: self.peer.stream().turn(turn), wrong, last + 1)
         other = pb.StepRequest(instance=5, sequence=last, t=0.0, step=0.2, signals=RAMP)
         self.assert_misuse("sequence", lambda: self.peer.call("Step", other), f"number {last}", "another content")
         snapshot = pb.SnapshotRequest(instance=5, sequence=last)
@@ -167,7 +168,7 @@ class Calls(PeerTest):
     def test_initialize_may_be_repeated_until_the_next_call(self):
         driver = self.drive()
         self.assertEqual(self.peer.call("Initialize", tank()), driver.initialized)
-        again = lambda request: lambda: self.peer.call("Initialize", request)  # noqa: E731
+        again = lambda request: lambda: self.peer.call("Initialize", request)
         self.assert_misuse("instance", again(tank(t_start=0.5)), "0x5", "exists")
         driver.step(0.0, 0.3, *RAMP)
         self.assert_misuse("instance", again(tank()), "0x5", "exists")
@@ -201,7 +202,7 @@ class Calls(PeerTest):
                 look = pb.Predict(t=0.0, step=0.5, signals=signals)
                 self.assert_misuse("signals", lambda look=look: driver.exchange(predict=look), *words)
         for perturbed in (constant(2, 1.0), through(0), constant(1, math.inf)):
-            call = lambda one=perturbed: driver.perturbed(0.0, 0.5, RAMP, perturbed=[RAMP[0], one])  # noqa: E731
+            call = lambda one=perturbed: driver.perturbed(0.0, 0.5, RAMP, perturbed=[RAMP[0], one])
             self.assert_misuse("signals", call, "input")
         self.assertEqual(driver.step(0.0, 0.5, constant(0, LEAK)), [START, 0.0])
 
@@ -220,7 +221,7 @@ class Calls(PeerTest):
             self.assert_misuse("evaluate.step", lambda look=look: driver.exchange(evaluate=look), "the length 0")
         self.assert_misuse("outputs", lambda: driver.values("depth", signals=[inflow]), "depth", "level, rate")
         self.assert_misuse("t", lambda: driver.evaluate(signals=[inflow], t=math.nan), "NaN")
-        many = lambda: driver.step(0.0, 0.5, inflow, integrals=9)  # noqa: E731
+        many = lambda: driver.step(0.0, 0.5, inflow, integrals=9)
         self.assert_misuse("integrals", many, "9 integrals", "8")
         self.assert_misuse("directions", lambda: driver.evaluate("level", signals=[inflow], directions=[inflow]))
         self.assertEqual(driver.level, START)
@@ -240,7 +241,7 @@ class Calls(PeerTest):
     def test_a_restored_state_replays_bit_by_bit(self):
         for kind, options in (("exact", {}), ("rk4", {"step": number(1.3e-4)})):
             driver = self.drive(oscillator(instance=len(kind), solver=pb.Solver(kind=kind, options=options)))
-            march = lambda driver=driver: [driver.step(i * STEP, STEP, *load(41.3 + i)) for i in range(5)]  # noqa: E731
+            march = lambda driver=driver: [driver.step(i * STEP, STEP, *load(41.3 + i)) for i in range(5)]
             snapshot = driver.snapshot()
             first = march()
             driver.restore(snapshot)
@@ -289,7 +290,7 @@ class Calls(PeerTest):
             pb.Predict(t=0.5, step=0.5, signals=inflow, perturbed=FLOOD[:1]),
         ):
             for go_back in (False, True):
-                call = lambda look=look, go_back=go_back: driver.exchange(  # noqa: E731
+                call = lambda look=look, go_back=go_back: driver.exchange(
                     advance=pb.Advance(t=0.5, step=0.5, signals=inflow), predict=look, go_back=go_back
                 )
                 failure = self.assert_refused(pb.SEVERITY_RECOVERABLE, call, "overflows")
@@ -301,7 +302,7 @@ class Calls(PeerTest):
     def test_one_advance_is_taken_back_and_not_two(self):
         driver = self.drive()
         advance = pb.Advance(t=0.0, step=0.5, signals=[constant(0, 1.0), constant(1, 0.0)])
-        back = lambda: driver.exchange(go_back=True)  # noqa: E731
+        back = lambda: driver.exchange(go_back=True)
         self.assert_misuse("go_back", back, "nothing to take back", "one advance", "not two")
         driver.exchange(advance=advance)
         driver.exchange(go_back=True, advance=advance)
@@ -322,7 +323,7 @@ class Calls(PeerTest):
         inflow = [constant(0, 1.0)]
         reply = driver.exchange(predict=pb.Predict(t=0.0, step=0.5, signals=inflow, perturbed=perturbed))
         self.assertEqual([reply.predicted.values[0], *(one.values[0] for one in reply.perturbed)], [0.0, 1.0, 1.0])
-        repeated = lambda step: [one.values[0] for one in driver.perturbed(0.0, step, inflow, perturbed=perturbed).outputs]  # noqa: E731
+        repeated = lambda step: [one.values[0] for one in driver.perturbed(0.0, step, inflow, perturbed=perturbed).outputs]
         self.assertEqual(repeated(0.25), [0.0, 1.0])
         self.assert_refused(pb.SEVERITY_RECOVERABLE, lambda: driver.step(0.0, 0.5, *FLOOD))
         self.assertEqual(repeated(0.5), [0.0, 1.0])
@@ -357,7 +358,7 @@ class Calls(PeerTest):
             advance = pb.Advance(step=STEP, signals=load(4.0), instants=offsets)
             self.assert_misuse("instants", lambda advance=advance: driver.exchange(advance=advance), f"instant {place}")
             advance = pb.Advance(step=STEP, signals=load(4.0), samples=offsets)
-            call = lambda advance=advance: driver.exchange(advance=advance)  # noqa: E731
+            call = lambda advance=advance: driver.exchange(advance=advance)
             self.assert_misuse("advance.samples", call, f"sample {place}", STEP)
 
     def test_derivatives_are_quotients_of_differences(self):

@@ -3,6 +3,8 @@
 import math
 import unittest
 
+from models import Tank
+
 from linchpin_worker import (
     Description,
     DescriptionError,
@@ -17,7 +19,6 @@ from linchpin_worker import (
     spatial_marker,
 )
 from linchpin_worker._contract import worker_pb2 as pb
-from models import Tank
 
 X, F = Variable("x", "m"), Variable("f", "N", default=0.0)
 

@@ -4,9 +4,10 @@ import logging
 import unittest
 
 import models
+from peer import Driver, Peer, PeerTest, constant, initialize, tank
+
 from linchpin_worker._contract import worker_pb2 as pb
 from linchpin_worker.status import shortened
-from peer import Driver, Peer, PeerTest, constant, initialize, tank
 
 FATAL, RECOVERABLE = pb.SEVERITY_FATAL, pb.SEVERITY_RECOVERABLE
 
@@ -42,8 +43,8 @@ class Faults(PeerTest):
                 driver = self.drive(fault)
                 failure = self.assert_refused(severity, lambda driver=driver: driver.step(0.1, 0.5), *words)
                 self.assertEqual((failure.t, failure.step), (t, 0.5))
-                look = pb.Predict(t=0.1, step=0.5)
-                self.assert_refused(severity, lambda driver=driver: driver.exchange(predict=look), *words)
+                look = {"predict": pb.Predict(t=0.1, step=0.5)}
+                self.assert_refused(severity, lambda driver=driver, look=look: driver.exchange(**look), *words)
                 # The step has changed the state before it failed.
                 self.assertEqual(driver.values("x"), [0.0])
                 self.end()

@@ -65,7 +65,7 @@ class Wrenches(unittest.TestCase):
         centre, point, force, moment = (0.2, 0.1, -0.4), (1.0, -0.7, 0.5), (2.0, -3.0, 1.5), (0.4, 0.8, -0.2)
         arm = [p - c for p, c in zip(point, centre, strict=True)]
         at_point = [v + w for v, w in zip(velocity, cross(omega, arm), strict=True)]
-        power = lambda f, m, v: sum(a * b for a, b in zip((*f, *m), (*v, *omega), strict=True))  # noqa: E731
+        power = lambda f, m, v: sum(a * b for a, b in zip((*f, *m), (*v, *omega), strict=True))
         self.assertAlmostEqual(
             power(force, moment, at_point), power(*wrench_about(centre, point, force, moment), velocity), delta=1e-14
         )

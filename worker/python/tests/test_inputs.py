@@ -15,7 +15,14 @@ def inputs():
 
 class Parts(unittest.TestCase):
     def test_a_step_has_the_fewest_equal_parts_that_are_short_enough(self):
-        for step, dt, count in ((1.0, 1.0, 1), (1.0, 0.3, 4), (1e-3, 1e-4, 10), (0.3, 0.1, 3), (0.7 * 3.0, 0.7, 3), (1e-5, 1.0, 1)):
+        for step, dt, count in (
+            (1.0, 1.0, 1),
+            (1.0, 0.3, 4),
+            (1e-3, 1e-4, 10),
+            (0.3, 0.1, 3),
+            (0.7 * 3.0, 0.7, 3),
+            (1e-5, 1.0, 1),
+        ):
             parts = list(equal_parts(step, dt))
             self.assertEqual(len(parts), count, (step, dt))
             self.assertEqual(parts[0], (0.0, step / count))

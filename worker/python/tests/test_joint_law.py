@@ -96,7 +96,7 @@ class Laws(unittest.TestCase):
         for law in (*LAWS, *(JointLaw(law.law, law.axes, (ZERO, ZERO)) for law in LAWS)):
             for end in (A, B):
                 for of in (A, B):
-                    only = lambda *parts, of=of: tuple(parts if own == of else (0.0, 0.0) for own in (A, B))  # noqa: E731
+                    only = lambda *parts, of=of: tuple(parts if own == of else (0.0, 0.0) for own in (A, B))
                     reads = law.reads(end, of)
                     self.assertEqual(reads.position, differs(law, end, only(1.0, 0.0)), (law, end, of))
                     self.assertEqual(reads.rotation, differs(law, end, only(0.0, 1.0)), (law, end, of))

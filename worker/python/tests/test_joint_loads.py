@@ -2,11 +2,12 @@
 
 import math
 
+from peer import Driver, Peer, PeerTest, constant, initialize, through
+
 from linchpin_worker._contract import worker_pb2 as pb
 from linchpin_worker.inputs import values_type
 from linchpin_worker.joint_law import A, JointLaw, Pose
 from linchpin_worker.joint_load import JointLoad, LoadedMarker, Partner
-from peer import Driver, Peer, PeerTest, constant, initialize, through
 
 OWN, NORMAL, POINT = (0.3, -0.7, 1.1), (0.6, -0.8), (0.4, 0.25)
 GIVEN = (13.0, 7.0, 2.9, 1.7, 0.4, -0.8)
