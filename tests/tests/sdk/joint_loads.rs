@@ -5,12 +5,12 @@ use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;
 use nalgebra::Vector3;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{Driver, FIRST, assert_misuse, constant, failure, number, through, values};
 use crate::peer::{Serve, host};
 use crate::stand::{at_pose, named};
 
-both_ways!(
+all_ways!(
     places_of_joint_inputs_follow_those_of_driven_inputs,
     a_driven_input_can_be_the_multiplier,
     impulses_follow_the_polynomials_of_joint_inputs,

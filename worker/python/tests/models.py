@@ -64,7 +64,7 @@ class Tank(Subsystem):
 
 
 class Oscillator(Subsystem):
-    """`m a = -(c + partner_c) x - d v + partner_c partner_x + f`.
+    """`m a = f - c x - d v + partner_stiffness (partner_x - x) + partner_damping (partner_v - v)`.
 
     Both solvers expand the motion in powers of time: "exact" over parts that are short beside the period, "rk4" over parts of
     the length `step`, up to the fourth power. "radau5" is the exact one and says a tolerance.
@@ -72,11 +72,11 @@ class Oscillator(Subsystem):
 
     description = Description(
         "oscillator",
-        inputs=[Variable("f", "N", default=0.0), Variable("partner_x", "m", default=0.0)],
+        inputs=[Variable(name, unit, default=0.0) for name, unit in (("f", "N"), ("partner_x", "m"), ("partner_v", "m/s"))],
         outputs=[Variable("x", "m"), Variable("v", "m/s"), Variable("a", "m/s^2")],
         parameters=[
             Parameter("m", "kg", above=0.0),
-            *(Parameter(name, default=0.0) for name in ("c", "d", "x0", "v0", "partner_c")),
+            *(Parameter(name, default=0.0) for name in ("c", "d", "x0", "v0", "partner_stiffness", "partner_damping")),
         ],
         solvers=[
             Solver("exact"),
@@ -90,29 +90,33 @@ class Oscillator(Subsystem):
     )
 
     def __init__(self, setup):
-        self.m, self.c, self.d, self.x, self.v, self.partner_c = setup.numbers("m", "c", "d", "x0", "v0", "partner_c")
-        self.c += self.partner_c
+        self.m, c, d, self.x, self.v = setup.numbers("m", "c", "d", "x0", "v0")
+        self.partner = setup.numbers("partner_stiffness", "partner_damping")
+        self.c, self.d = c + self.partner[0], d + self.partner[1]
         self.tolerance = setup.options.get("rtol")
         self.step, self.terms = setup.options.get("step"), 4 if setup.solver == "rk4" else 20
 
     def end(self, step, u, x, v):
         parts = math.ceil(step / self.step if self.step else step * max(math.sqrt(self.c / self.m), self.d / self.m))
         h = step / max(1, parts)
-        forces, partners = u.polynomial("f"), u.polynomial("partner_x")
+        factors = {"f": 1.0, "partner_x": self.partner[0], "partner_v": self.partner[1]}
         for part in range(max(1, parts)):
             self.internal_steps += 1
-            powers = (own.shifted(part * h).powers(h) for own in (forces, partners))
-            f, partner = ([*own, *[0.0] * (self.terms - len(own))] for own in powers)
+            loads = [0.0] * max(self.terms, 8)
+            for name, factor in factors.items():
+                for n, power in enumerate(u.polynomial(name).shifted(part * h).powers(h)):
+                    loads[n] += factor * power
             xs, ws = [x], [h * v]
             for n in range(self.terms):
-                load = f[n] + self.partner_c * partner[n] - self.c * xs[n]
+                load = loads[n] - self.c * xs[n]
                 xs.append(ws[n] / (n + 1))
                 ws.append((h * h * load - h * self.d * ws[n]) / self.m / (n + 1))
             x, v = math.fsum(xs), v + math.fsum(ws[1:]) / h
         return x, v
 
     def told(self, x, v, u):
-        return x, v, (u.f + self.partner_c * u.partner_x - self.c * x - self.d * v) / self.m
+        load = u.f + self.partner[0] * u.partner_x + self.partner[1] * u.partner_v
+        return x, v, (load - self.c * x - self.d * v) / self.m
 
     def advance(self, t, step, u):
         self.x, self.v = self.end(step, u, self.x, self.v)
