@@ -6,11 +6,12 @@ from ._contract import worker_pb2 as pb
 class Refused(Exception):
     """What a scene asks of the model cannot be: raise it where an instance is made.
 
-    `field` is the place in the scene's subsystem, such as "parameters.m"; `reason` says what is allowed and what to do.
+    `field` is the place in the scene's subsystem, such as "parameters.m"; `reason` says what is allowed and what to do. The
+    message is the field, then `between`, then the reason.
     """
 
-    def __init__(self, field: str, reason: str) -> None:
-        super().__init__(f"{field}: {reason}")
+    def __init__(self, field: str, reason: str, between: str = ": ") -> None:
+        super().__init__(f"{field}{between}{reason}")
         self.field = field
 
 

@@ -48,14 +48,14 @@ class Parameter:
         """The value that a scene gives at the place `field`: float, str, bool or a list of floats."""
         case = value.WhichOneof("kind")
         if case is None or KINDS[case] is not self.kind:
-            raise Refused(field, f"it must be {WORDS[self.kind]}")
+            raise Refused(field, f"must be {WORDS[self.kind]}", between=" ")
         if case == "numbers":
             return [finite(f"{field}[{place}]", number) for place, number in enumerate(value.numbers.values)]
         if case != "number":
             return getattr(value, case)
         number = finite(field, value.number)
         if not (self.above < number < self.below and self.least <= number <= self.most):
-            raise Refused(field, f"{readable.number(number)} is out of range: it must be {self._limits()}")
+            raise out_of_range(field, number, self._limits())
         return number
 
     def _limits(self) -> str:
@@ -85,8 +85,13 @@ class Solver:
 def finite(field: str, value: float) -> float:
     """The value of a field, if it is finite."""
     if not math.isfinite(value):
-        raise Refused(field, f"{readable.number(value)} is out of range: it must be a finite number")
+        raise out_of_range(field, value, "a finite number")
     return value
+
+
+def out_of_range(field: str, value: float, allowed: str) -> Refused:
+    """The refusal of a number."""
+    return Refused(field, f"{readable.number(value)} is out of range: it must be {allowed}", between=" = ")
 
 
 def complete(table: str, given: Mapping[str, pb.Value], known: Sequence[Parameter]) -> dict[str, object]:
@@ -94,7 +99,8 @@ def complete(table: str, given: Mapping[str, pb.Value], known: Sequence[Paramete
     names = [parameter.name for parameter in known]
     for name in given:
         if name not in names:
-            raise Refused(f"{table}.{name}", f"unknown to this model; known: {', '.join(names) or 'none'}")
+            known_names = ", ".join(names) or "none"
+            raise Refused(f"{table}.{name}", f"is unknown to this model; known: {known_names}", between=" ")
     values: dict[str, object] = {}
     for parameter in known:
         field = f"{table}.{parameter.name}"
@@ -103,5 +109,5 @@ def complete(table: str, given: Mapping[str, pb.Value], known: Sequence[Paramete
         elif parameter.default is not None:
             values[parameter.name] = parameter.default
         else:
-            raise Refused(field, f"missing; the model needs it as {WORDS[parameter.kind]}")
+            raise Refused(field, f"is missing; the model needs {WORDS[parameter.kind]}", between=" ")
     return values
