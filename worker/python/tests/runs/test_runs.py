@@ -40,6 +40,22 @@ class Runs(unittest.TestCase):
         self.assert_near(found, expected, ("_ax", 1e-6), ("_ay", 1e-6), 1e-8)
         self.assertLess(max(map(abs, found["hinge.residual.position.x"])), 1e-8)
 
+    def test_joint_loads_inside_a_solver_in_python_are_those_of_the_built_in_one(self):
+        """The end of the lower link slides along the upper one, so the load turns with that."""
+        slide = (
+            r'^kind = "revolute"\na = .*\nb = .*$',
+            'kind = "inplane"\na = "lower.start"\nb = "upper.tip"\naxis_b = [0.0, 1.0]',
+        )
+        upper, lower = LINKS_BUILT_IN
+        rod = (r"planar_rod.py", "../tests/runs/joint_rod.py")
+        settings = ["coupling.method=weighted", "coupling.macro_step=2e-3", "coupling.loads=worker"]
+        expected = columns("two_links.toml", settings, [slide, upper, lower])
+        found = columns("two_links.toml", settings, [slide, upper, rod])
+        self.assert_near(found, expected, ("_ax", 1e-6), ("_ay", 1e-6), ("_alpha", 1e-6), 1e-7)
+        # From outside the load is a polynomial, and the motion another one.
+        outside = columns("two_links.toml", [*settings[:2], "coupling.loads=master"], [slide, upper, rod])
+        self.assertNotEqual(outside, found)
+
     def test_a_top_in_python_is_the_built_in_body(self):
         found, expected = columns("gimbal.toml"), columns("gimbal.toml", changes=TOP_BUILT_IN)
         for name, own in found.items():
