@@ -21,7 +21,7 @@ class Polynomial:
         self._nodes = nodes
         self._differences = differences
         # Horner's scheme begins with the highest difference; the last node is that of no factor.
-        self._newton = [(differences[i], nodes[i]) for i in range(len(nodes) - 2, -1, -1)]
+        self._newton = list(zip(differences[-2::-1], nodes[-2::-1], strict=True))
 
     @classmethod
     def constant(cls, value: float) -> Polynomial:
@@ -35,10 +35,10 @@ class Polynomial:
         Raises `ValueError` if the points do not define one.
         """
         nodes, differences = tuple(nodes), list(values)
-        count = len(nodes)
         _check(nodes, differences)
-        for order in range(1, count):
-            for i in range(count - 1, order - 1, -1):
+        last = len(nodes) - 1
+        for order in range(1, last + 1):
+            for i in range(last, order - 1, -1):
                 differences[i] = (differences[i] - differences[i - 1]) / (nodes[i] - nodes[i - order])
         return cls(nodes, differences)
 
@@ -82,9 +82,9 @@ def _check(nodes: Sequence[float], values: Sequence[float]) -> None:
         raise ValueError(f"{count} nodes, at most {MAX_NODES} are allowed")
     if len(values) != count:
         raise ValueError(f"{count} nodes but {len(values)} values")
-    for place in range(count):
-        if not (math.isfinite(nodes[place]) and math.isfinite(values[place])):
-            raise ValueError(f"node or value {place} is not a finite number")
+    if not (all(map(math.isfinite, nodes)) and all(map(math.isfinite, values))):
+        place = next(i for i in range(count) if not (math.isfinite(nodes[i]) and math.isfinite(values[i])))
+        raise ValueError(f"node or value {place} is not a finite number")
     if len(set(nodes)) < count:
         first, second = next((i, k) for k in range(count) for i in range(k) if nodes[i] == nodes[k])
         raise ValueError(f"nodes {first} and {second} coincide")
