@@ -213,6 +213,7 @@ class Faulty(Subsystem):
         inputs=[Variable("f", "N", default=0.0)],
         outputs=[Variable("x", "m"), Variable("v", "m/s")],
         parameters=[Parameter("fault", kind=str)],
+        max_input_degree=1,
     )
 
     def __init__(self, setup):

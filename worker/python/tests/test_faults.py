@@ -4,7 +4,7 @@ import logging
 import unittest
 
 import models
-from peer import Driver, Peer, PeerTest, constant, initialize, tank
+from peer import Driver, Peer, PeerTest, constant, initialize, tank, through
 
 from linchpin_worker._contract import worker_pb2 as pb
 from linchpin_worker.status import shortened
@@ -60,6 +60,13 @@ class Faults(PeerTest):
     def drive_again(self, fault):
         self.end()
         return self.drive(fault)
+
+    def test_a_degree_that_the_solver_does_not_take_is_refused(self):
+        parameters = {"fault": pb.Value(text="named")}
+        driver = Driver(self.peer, initialize(model="faulty", parameters=parameters, inputs=["f"], coupling_outputs=["x"]))
+        driver.step(0.0, 0.5, through(0, (0.0, 1.0), (0.5, 2.0)))
+        parabola = through(0, (0.0, 1.0), (0.5, 2.0), (1.0, 0.0))
+        self.assert_misuse("signals", lambda: driver.step(0.0, 0.5, parabola), '"f"', "degree 2", "1 at most")
 
     def test_outputs_are_as_many_as_described(self):
         for fault, words in (

@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
@@ -26,10 +27,10 @@ def describe(channel):
 
 
 class Program(unittest.TestCase):
-    def start(self, *arguments, **options):
+    def start(self, *arguments, program=PROGRAM, **options):
         options = {"stdin": subprocess.DEVNULL, **options}
         process = subprocess.Popen(
-            [sys.executable, PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
+            [sys.executable, program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
         )
         self.addCleanup(process.communicate)
         self.addCleanup(process.kill)
@@ -51,6 +52,16 @@ class Program(unittest.TestCase):
             self.assertEqual(describe(channel).worker, "linchpin-worker")
         second = self.start("--listen", address)
         self.assertIn(f"http://{address} is in use; choose another port, or port 0", self.ends(second, 1))
+
+    def test_the_example_of_the_readme_serves(self):
+        page = PROGRAM.parents[1].joinpath("README.md").read_text()
+        (example,) = re.findall(r"^```python\n(.*?)^```$", page, flags=re.MULTILINE | re.DOTALL)
+        file = pathlib.Path(self.folder(), "worker.py")
+        file.write_text(example)
+        process = self.start("--listen", "127.0.0.1:0", program=file)
+        address = process.stdout.readline().removeprefix("listening on http://").strip()
+        with grpc.insecure_channel(address) as channel:
+            self.assertEqual(describe(channel).models[0].name, "integrator")
 
     def test_each_signal_ends_it_cleanly(self):
         for number_ in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):

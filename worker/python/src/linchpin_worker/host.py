@@ -154,7 +154,7 @@ class Host:
             sides = f"this side speaks linchpin {own}, the other side speaks {shown(request)}"
             raise misuse("protocol", f"incompatible protocol: {sides}; use builds with the same major number")
         description = self._described(request.model, request.parameters)
-        signals = Signals(description.inputs, request)
+        signals = Signals(description, request)
         signals.take_joint_loads(joint_loads_of(description, request, signals))
         model = self._models[request.model]
         subsystem = built(lambda: model(setup_of(description, request)))

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from ._contract import worker_pb2 as pb
 from .description import Description
 from .exchange import exchange
-from .failures import CallFailed, misuse
+from .failures import CallFailed, fatal, misuse
 from .interval import interval_of_step
 from .motion import Base, Motion
 from .signals import Signals
@@ -135,6 +135,7 @@ class Instance:
             self._check_repeated(call, request)
         elif request.sequence == following:
             self._sequence, self._asked, self._call = following, request, call
+            self._answer = fatal(f"{call} number {following} did not come to an end")
             try:
                 self._answer = act()
             except CallFailed as failed:

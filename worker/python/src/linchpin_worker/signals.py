@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from ._contract import worker_pb2 as pb
+from .description import Description
 from .failures import misuse
 from .inputs import Inputs, values_type
 from .joint_load import JointLoad
@@ -27,8 +28,10 @@ class Driven:
 class Signals:
     """The driven inputs of an instance, the defaults of the others, and the inputs of joint loads."""
 
-    def __init__(self, known: Sequence[Variable], request: pb.InitializeRequest) -> None:
+    def __init__(self, description: Description, request: pb.InitializeRequest) -> None:
         """Refuses names that are unknown or listed twice, and inputs without a value."""
+        known = description.inputs
+        self._max_degree = description.max_input_degree
         places = find(known, request.inputs, "inputs")
         for place, variable in enumerate(known):
             if variable.default is None and place not in places:
@@ -65,7 +68,7 @@ class Signals:
             if driven.input in given:
                 raise misuse("signals", f'input "{driven.name}" has two signals')
             given.add(driven.input)
-            self._polynomials[driven.input] = _polynomial(signal, driven, "signals")
+            self._polynomials[driven.input] = self._polynomial(signal, driven, "signals")
         if len(given) == len(self._driven):
             return
         for driven in self._driven:
@@ -81,13 +84,13 @@ class Signals:
     def replaced(self, signal: pb.Signal, step: float) -> Inputs:
         """The present inputs with one replaced, over a step of length `step` (s)."""
         driven = self._named(signal, "signals")
-        return self._with(self._polynomials, driven, _polynomial(signal, driven, "signals"), step)
+        return self._with(self._polynomials, driven, self._polynomial(signal, driven, "signals"), step)
 
     def direction(self, signal: pb.Signal, step: float) -> Inputs:
         """The direction in which one input changes, over a step of length `step` (s); all others stay."""
         driven = self._named(signal, "directions")
         zeros = [ZERO] * len(self._polynomials)
-        return self._with(zeros, driven, _polynomial(signal, driven, "directions"), step)
+        return self._with(zeros, driven, self._polynomial(signal, driven, "directions"), step)
 
     def _with(self, polynomials: Sequence[Polynomial], driven: Driven, polynomial: Polynomial, step: float) -> Inputs:
         changed = list(polynomials)
@@ -100,6 +103,16 @@ class Signals:
             return self._driven[place]
         count = len(self._driven)
         raise misuse(field, f"a signal names input {place}, but Initialize listed {count} inputs (counted from 0)")
+
+    def _polynomial(self, signal: pb.Signal, driven: Driven, field: str) -> Polynomial:
+        try:
+            polynomial = Polynomial.through(signal.nodes, signal.values)
+        except ValueError as error:
+            raise misuse(field, f'the signal of input {signal.input} ("{driven.name}"): {error}') from error
+        if polynomial.degree > self._max_degree:
+            place = f'the signal of input {signal.input} ("{driven.name}") has the degree {polynomial.degree}'
+            raise misuse(field, f"{place}; this model takes {self._max_degree} at most, as its capabilities say")
+        return polynomial
 
 
 def find(known: Sequence[Variable], names: Sequence[str], field: str) -> list[int]:
@@ -115,10 +128,3 @@ def _refuse_twice(field: str, names: Sequence[str]) -> None:
     for place, name in enumerate(names):
         if name in names[:place]:
             raise misuse(field, f'input "{name}" is listed twice')
-
-
-def _polynomial(signal: pb.Signal, driven: Driven, field: str) -> Polynomial:
-    try:
-        return Polynomial.through(signal.nodes, signal.values)
-    except ValueError as error:
-        raise misuse(field, f'the signal of input {signal.input} ("{driven.name}"): {error}') from error
