@@ -1,5 +1,6 @@
 """Workers in Python coupled with built-in ones, against built-in ones alone."""
 
+import itertools
 import pathlib
 import unittest
 
@@ -34,6 +35,13 @@ class Runs(unittest.TestCase):
                 # The multiplier closes the gap of positions: their differences reach it and accelerations over H^2.
                 self.assert_near(found, expected, (".lambda", 1e-8), (".a", 1e-8), 1e-9)
                 self.assertEqual(columns("oscillator.toml", settings), found, "a second run has other bits")
+
+    def test_steps_that_vary_are_taken_back_and_taken_again(self):
+        settings = ["coupling.method=weighted", "coupling.macro_step=1e-3", "coupling.tolerance=1e-7"]
+        found, expected = columns("oscillator.toml", settings), columns("oscillator.toml", settings, BUILT_IN)
+        self.assertGreater(len({round(b - a, 9) for a, b in itertools.pairwise(found["t"])}), 3)
+        for name in ("mass1.x", "mass2.v"):
+            self.assertAlmostEqual(found[name][-1], expected[name][-1], delta=1e-5 * max(map(abs, expected[name])))
 
     def test_links_in_python_are_the_built_in_links(self):
         found, expected = columns("two_links.toml"), columns("two_links.toml", changes=LINKS_BUILT_IN)
