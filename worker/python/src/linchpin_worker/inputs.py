@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 from .stepping import equal_parts
 
@@ -13,27 +13,18 @@ if TYPE_CHECKING:
     from .polynomial import Polynomial
 
 
-class Values(Protocol):
+class Values(tuple[float, ...]):
     """Values of all inputs at an instant, in the order of the description: `u.f`, `u[0]`, or unpacked.
 
     Names that Python does not allow as attributes, such as "a-b", are reached by their place only.
     """
 
-    def __getitem__(self, place: int) -> float:
-        """Value of the input number `place`."""
-        ...
+    __slots__ = ()
 
-    def __len__(self) -> int:
-        """Number of inputs."""
-        ...
+    if TYPE_CHECKING:
 
-    def __iter__(self) -> Iterator[float]:
-        """The values in their order."""
-        ...
-
-    def __getattr__(self, name: str) -> float:
-        """Value of the input `name`."""
-        ...
+        def __getattr__(self, name: str) -> float:
+            """Value of the input `name`."""
 
     def with_joint_loads(self, poses: Mapping[str, Sequence[float]]) -> Values:
         """The same with the joint loads at this instant added to the load inputs of the markers that take them.
@@ -41,44 +32,40 @@ class Values(Protocol):
         `poses` has for every marker its position at this instant, in the order of its position outputs. Only models that
         say `joint_loads` are asked for any; where there are none, nothing is added.
         """
-        ...
-
-
-class _Plain:
-    __slots__ = ()
-
-    def with_joint_loads(self, poses: Mapping[str, Sequence[float]]) -> _Plain:
         return self
 
 
-class _Joined:
-    """Values that know those of the joint inputs, which stand behind the inputs in `signals`."""
+class JoinedValues(Values):
+    """Values that know those of the joint inputs, which stand behind those of the inputs in `signals`."""
 
     signals: Sequence[float]
     joint_loads: Sequence[JointLoad]
 
-    def with_joint_loads(self, poses: Mapping[str, Sequence[float]]) -> Any:
-        loaded = list(self)  # type: ignore[call-overload]
+    def with_joint_loads(self, poses: Mapping[str, Sequence[float]]) -> Values:
+        """See `Values.with_joint_loads`."""
+        loaded = list(self)
         for joint_load in self.joint_loads:
             joint_load.add(poses, self.signals, loaded)
-        return type(self)._of(loaded, self.signals)  # type: ignore[attr-defined]
+        made = type(self)._make(loaded)  # type: ignore[attr-defined]
+        made.signals = self.signals
+        return made  # type: ignore[no-any-return]
 
 
-def values_type(names: Sequence[str], joint_inputs: int, joint_loads: Sequence[JointLoad]) -> Any:
+def values_type(
+    names: Sequence[str], joint_inputs: int, joint_loads: Sequence[JointLoad]
+) -> Callable[[Sequence[float]], Values]:
     """A function that makes the values of inputs `names` of a list in which those of the joint inputs follow."""
-    plain = namedtuple("Inputs", names, rename=True)  # type: ignore[misc]
+    named = namedtuple("Inputs", names, rename=True)  # type: ignore[misc]
     if joint_inputs == 0:
-        return type("Inputs", (_Plain, plain), {"__slots__": ()})._make  # type: ignore[attr-defined]
-    count = len(names)
-    joined = type("Inputs", (_Joined, plain), {"joint_loads": joint_loads})
+        return type("Inputs", (Values, named), {"__slots__": ()})._make  # type: ignore[attr-defined, no-any-return]
+    joined: Any = type("Inputs", (JoinedValues, named), {"joint_loads": joint_loads})
 
-    def of(values: Sequence[float], signals: Sequence[float]) -> Any:
-        made = joined._make(values)  # type: ignore[attr-defined]
+    def make(signals: Sequence[float]) -> Values:
+        made = joined._make(signals[: len(names)])
         made.signals = signals
-        return made
+        return made  # type: ignore[no-any-return]
 
-    joined._of = staticmethod(of)  # type: ignore[attr-defined]
-    return lambda signals: of(signals[:count], signals)
+    return make
 
 
 class Inputs:
@@ -86,7 +73,9 @@ class Inputs:
 
     __slots__ = ("_make", "_names", "_polynomials", "_step")
 
-    def __init__(self, polynomials: Sequence[Polynomial], step: float, make: Any, names: Sequence[str]) -> None:
+    def __init__(
+        self, polynomials: Sequence[Polynomial], step: float, make: Callable[[Sequence[float]], Values], names: Sequence[str]
+    ) -> None:
         self._polynomials = polynomials
         self._step = step
         self._make = make
@@ -94,7 +83,7 @@ class Inputs:
 
     def __call__(self, tau: float) -> Values:
         """Values of all inputs `tau` seconds after the start of the step."""
-        return self._make([polynomial(tau) for polynomial in self._polynomials])  # type: ignore[no-any-return]
+        return self._make([polynomial(tau) for polynomial in self._polynomials])
 
     @property
     def step(self) -> float:
