@@ -16,6 +16,9 @@ FIRST = 41
 STEP = 1.7e-3
 
 
+INSTANTS = (0.13 * STEP, 0.5 * STEP, 0.97 * STEP)
+
+
 class Refusal(Exception):
     """A status of a worker, or the failure in a reply on a stream."""
 
@@ -31,6 +34,17 @@ def constant(place, value):
 
 def through(place, *points):
     return pb.Signal(input=place, nodes=[node for node, _ in points], values=[value for _, value in points])
+
+
+# Inflow and leak of a tank over 0.3 s, and what they add to the level.
+RAMP = (through(0, (0.3, 1.9), (0.0, 0.7)), constant(1, 0.1))
+RISE = (0.5 * (1.9 + 0.7) - 0.1) * 0.3
+FLOOD = (constant(0, 100.0), constant(1, 0.0))
+
+
+def load(end):
+    """A force on an oscillator that is not constant over the step, `end` at its end."""
+    return [through(0, (STEP, end), (0.0, -17.9), (-STEP, 230.7)), constant(1, 0.01)]
 
 
 def number(value):
@@ -193,3 +207,13 @@ class PeerTest(unittest.TestCase):
 
     def assert_misuse(self, field, call, *words):
         return self.assert_refused(pb.SEVERITY_MISUSE, call, *words, field=field)
+
+
+class WorkerTest(PeerTest):
+    """A test that asks a worker with the default limits."""
+
+    def setUp(self):
+        self.peer = Peer(self)
+
+    def drive(self, request=None):
+        return Driver(self.peer, request or tank())

@@ -47,7 +47,7 @@ class Package(unittest.TestCase):
 
     def test_files_are_short(self):
         for file in PACKAGE.rglob("*.py"):
-            if CONTRACT not in file.parents and "tests" not in file.parts:
+            if CONTRACT not in file.parents:
                 self.assertLess(len(file.read_text().splitlines()), 300, file)
 
     def test_the_wheel_has_the_package_its_types_and_its_messages(self):
