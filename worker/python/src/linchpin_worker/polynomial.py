@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import MutableSequence, Sequence
 
 MAX_NODES = 8
 """Most nodes that a polynomial may have; its degree is one less."""
@@ -21,7 +21,7 @@ class Polynomial:
         self._nodes = nodes
         self._differences = differences
         # Horner's scheme begins with the highest difference; the last node is that of no factor.
-        self._newton = list(zip(differences[-2::-1], nodes[-2::-1], strict=True))
+        self._newton = [*zip(differences[-2::-1], nodes[-2::-1], strict=True)]
 
     @classmethod
     def constant(cls, value: float) -> Polynomial:
@@ -29,17 +29,23 @@ class Polynomial:
         return cls((0.0,), (value,))
 
     @classmethod
-    def through(cls, nodes: Sequence[float], values: Sequence[float]) -> Polynomial:
+    def through(cls, nodes: MutableSequence[float], values: MutableSequence[float]) -> Polynomial:
         """The polynomial of degree `len(nodes) - 1` through the points `(nodes[i], values[i])`.
 
         Raises `ValueError` if the points do not define one.
         """
-        nodes, differences = tuple(nodes), list(values)
-        _check(nodes, differences)
+        nodes, differences = nodes[:], values[:]
         last = len(nodes) - 1
-        for order in range(1, last + 1):
-            for i in range(last, order - 1, -1):
-                differences[i] = (differences[i] - differences[i - 1]) / (nodes[i] - nodes[i - order])
+        # A sum is finite only if all its terms are; checked one by one where it is not.
+        if not (0 <= last < MAX_NODES and len(differences) == last + 1 and math.isfinite(sum(nodes) + sum(differences))):
+            _check(nodes, differences)
+        try:
+            for order in range(1, last + 1):
+                for i in range(last, order - 1, -1):
+                    differences[i] = (differences[i] - differences[i - 1]) / (nodes[i] - nodes[i - order])
+        except ZeroDivisionError:
+            first, second = next((i, k) for k in range(last + 1) for i in range(k) if nodes[i] == nodes[k])
+            raise ValueError(f"nodes {first} and {second} coincide") from None
         return cls(nodes, differences)
 
     @property
@@ -82,9 +88,6 @@ def _check(nodes: Sequence[float], values: Sequence[float]) -> None:
         raise ValueError(f"{count} nodes, at most {MAX_NODES} are allowed")
     if len(values) != count:
         raise ValueError(f"{count} nodes but {len(values)} values")
-    if not (all(map(math.isfinite, nodes)) and all(map(math.isfinite, values))):
-        place = next(i for i in range(count) if not (math.isfinite(nodes[i]) and math.isfinite(values[i])))
-        raise ValueError(f"node or value {place} is not a finite number")
-    if len(set(nodes)) < count:
-        first, second = next((i, k) for k in range(count) for i in range(k) if nodes[i] == nodes[k])
-        raise ValueError(f"nodes {first} and {second} coincide")
+    for place in range(count):
+        if not (math.isfinite(nodes[place]) and math.isfinite(values[place])):
+            raise ValueError(f"node or value {place} is not a finite number")
