@@ -85,6 +85,15 @@ class Program(unittest.TestCase):
         with self.assertRaises(subprocess.TimeoutExpired):
             process.wait(0.5)
 
+    def test_there_may_be_no_input(self):
+        path = f"{self.folder()}/worker"
+        shell = subprocess.Popen(
+            ["bash", "-c", f"exec {sys.executable} {PROGRAM} --listen unix:{path} <&-"], stdout=subprocess.PIPE, text=True
+        )
+        self.addCleanup(shell.communicate)
+        self.addCleanup(shell.kill)
+        self.assertEqual(shell.stdout.readline(), f"listening on unix:{path}\n")
+
     def test_a_step_that_does_not_end_is_not_waited_for(self):
         address = f"unix:{self.folder()}/worker"
         process = self.start("--listen", address)

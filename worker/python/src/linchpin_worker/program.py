@@ -43,7 +43,7 @@ def serve(*models: type[Subsystem], arguments: Sequence[str] | None = None) -> N
     except ListenError as error:
         sys.exit(f"error: {error}")
     with server:
-        if given.exit_with_stdin or (server.address.path and is_pipe(sys.stdin.fileno())):
+        if given.exit_with_stdin or (server.address.path and input_is_pipe()):
             threading.Thread(target=watch_input, args=(stop.set,), daemon=True).start()
         announce(server.address)
         stop.wait()
@@ -96,14 +96,14 @@ def seconds(text: str) -> float:
     return float(text)
 
 
-def is_pipe(descriptor: int) -> bool:
-    """Whether an open file is a pipe."""
-    return stat.S_ISFIFO(os.fstat(descriptor).st_mode)
+def input_is_pipe() -> bool:
+    """Whether the standard input is a pipe; there may be none."""
+    return sys.stdin is not None and stat.S_ISFIFO(os.fstat(sys.stdin.fileno()).st_mode)
 
 
 def watch_input(closed: Callable[[], None]) -> None:
     """Reads the standard input to its end, as of a master that started this worker and wants it to end."""
-    while os.read(sys.stdin.fileno(), 64):
+    while sys.stdin is not None and os.read(sys.stdin.fileno(), 64):
         pass
     closed()
 
