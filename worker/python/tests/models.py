@@ -111,7 +111,7 @@ class Oscillator(Subsystem):
                 load = loads[n] - self.c * xs[n]
                 xs.append(ws[n] / (n + 1))
                 ws.append((h * h * load - h * self.d * ws[n]) / self.m / (n + 1))
-            x, v = math.fsum(xs), v + math.fsum(ws[1:]) / h
+            x, v = sum(xs), v + sum(ws[1:]) / h
         return x, v
 
     def told(self, x, v, u):
