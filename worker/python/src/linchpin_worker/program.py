@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import queue
 import signal
 import stat
 import sys
@@ -35,18 +36,19 @@ def serve(*models: type[Subsystem], arguments: Sequence[str] | None = None) -> N
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(message)s", stream=sys.stderr)
     limits = Limits(instances=given.max_instances, lease=given.lease)
     host = Host(*models, limits=limits)
-    stop = threading.Event()
+    # A signal may arrive at any place of this thread, also while it begins to wait: the lock of an event could be its own.
+    ends: queue.SimpleQueue[None] = queue.SimpleQueue()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, lambda *_: stop.set())
+        signal.signal(number, lambda *_: ends.put(None))
     try:
         server = Server(host, given.listen, given.allow_remote)
     except ListenError as error:
         sys.exit(f"error: {error}")
     with server:
         if given.exit_with_stdin or (server.address.path and input_is_pipe()):
-            threading.Thread(target=watch_input, args=(stop.set,), daemon=True).start()
+            threading.Thread(target=watch_input, args=(lambda: ends.put(None),), daemon=True).start()
         announce(server.address)
-        stop.wait()
+        ends.get()
     if any(thread.name.startswith("linchpin-worker_") for thread in threading.enumerate()):
         # A solver that is still computing would keep the interpreter from ending.
         sys.stderr.flush()
