@@ -19,7 +19,7 @@ import grpc
 from linchpin_worker import Address, Description, Host, Server, Subsystem, spatial_marker
 from linchpin_worker._contract import worker_pb2 as pb
 
-TURNS, ROUNDS, COLUMNS_EVERY, STEP = 2000, 5, 16, 1e-3
+TURNS, WARM_UP, COLUMNS_EVERY, STEP = 10_000, 200, 16, 1e-3
 TIP = spatial_marker("tip")
 
 
@@ -114,32 +114,28 @@ def initialize(channel):
     channel.unary_unary("/linchpin.v1.Worker/Initialize")(request.SerializeToString())
 
 
-def seconds_per_turn(channel, method, requests):
-    stream = Stream(channel, method)
+def seconds(stream, request):
     begun = time.perf_counter()
-    for request in requests:
-        stream.turn(request)
-    stream.requests.put(None)
-    return (time.perf_counter() - begun) / len(requests)
+    stream.turn(request)
+    return time.perf_counter() - begun
 
 
 def measure():
-    requests, rounds = list(exchanges(TURNS)), []
+    """Times of both in turn, so that whatever else the machine does slows down one as the other."""
     with tempfile.TemporaryDirectory() as folder:
         kinds = ("bare", "worker")
         addresses = {kind: f"unix:{folder}/{kind}" for kind in kinds}
         servers = [start(kind, addresses[kind]) for kind in kinds]
         with grpc.insecure_channel(addresses["bare"]) as bare, grpc.insecure_channel(addresses["worker"]) as worker:
-            for _ in range(ROUNDS):
-                initialize(worker)
-                own = seconds_per_turn(worker, "/linchpin.v1.Worker/Exchange", requests)
-                rounds.append((seconds_per_turn(bare, "/Bare/Echo", requests), own))
-                request = pb.TerminateRequest(instance=1).SerializeToString()
-                worker.unary_unary("/linchpin.v1.Worker/Terminate")(request)
+            initialize(worker)
+            streams = Stream(bare, "/Bare/Echo"), Stream(worker, "/linchpin.v1.Worker/Exchange")
+            times = [tuple(seconds(stream, request) for stream in streams) for request in exchanges(TURNS)]
+            for stream in streams:
+                stream.requests.put(None)
         for server in servers:
             server.stdin.close()
             server.wait()
-    return rounds
+    return times[WARM_UP:]
 
 
 def start(kind, address):
@@ -153,10 +149,8 @@ def main():
     if len(sys.argv) == 3:
         serve(*sys.argv[1:])
         return
-    rounds = measure()
-    bare, worker = (1e3 * statistics.median(times) for times in zip(*rounds, strict=True))
-    ratio = statistics.median(own / echo for echo, own in rounds)
-    print(f"bare round trip {bare:.3f} ms, macro step of a body {worker:.3f} ms: {ratio:.2f} round trips")
+    bare, worker = (1e3 * statistics.median(times) for times in zip(*measure(), strict=True))
+    print(f"bare round trip {bare:.3f} ms, macro step of a body {worker:.3f} ms: {worker / bare:.2f} round trips")
 
 
 if __name__ == "__main__":
