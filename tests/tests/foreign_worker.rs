@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
-use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::path::PathBuf;
 use std::time::Duration;
 
 use linchpin_master::Interrupt;
@@ -13,8 +11,7 @@ use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, value::Kind};
 use linchpin_proto::version::PROTOCOL;
 use linchpin_tests::process::Workshop;
-
-const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
+use linchpin_tests::python::{Program, Python, in_repository, python};
 
 const SETTINGS: [&str; 8] = [
     "method=baumgarte index=1 degree=0",
@@ -34,20 +31,9 @@ const SETTINGS: [&str; 8] = [
 const LARGEST_DIFFERENCE: f64 = 1e-12;
 const LARGEST_DIFFERENCE_OF_LOADS: f64 = 1e-10;
 
-/// The interpreter and where the stubs are; both are made on the first call.
-fn python() -> (PathBuf, PathBuf) {
-    let setup = Path::new(REPOSITORY).join("tests/python/setup.sh");
-    let done = Command::new("bash").arg(&setup).output().unwrap();
-    assert!(
-        done.status.success(),
-        "{}",
-        String::from_utf8_lossy(&done.stderr)
-    );
-    let folder = Path::new(REPOSITORY)
-        .join("target/python")
-        .canonicalize()
-        .unwrap();
-    (folder.join("venv/bin/python"), folder.join("stubs"))
+/// The worker's program.
+fn worker() -> PathBuf {
+    in_repository("tests/python/oscillator_worker.py")
 }
 
 fn scene(second: &str) -> String {
@@ -116,15 +102,11 @@ fn difference(one: &[f64], other: &[f64]) -> f64 {
 
 #[test]
 fn it_agrees_with_the_built_in_worker_to_rounding() {
-    let (python, stubs) = python();
-    let worker = Path::new(REPOSITORY)
-        .join("tests/python/oscillator_worker.py")
-        .canonicalize()
-        .unwrap();
+    let Python { interpreter, stubs } = python();
     let workshop = Workshop::new();
     workshop.write(
         "foreign.toml",
-        scene(&format!("command = {:?}", [&python, &worker])),
+        scene(&format!("command = {:?}", [interpreter, &worker()])),
     );
     workshop.write("built-in.toml", scene(r#"model = "oscillator""#));
     for settings in SETTINGS {
@@ -137,7 +119,7 @@ fn it_agrees_with_the_built_in_worker_to_rounding() {
                 .collect();
             arguments.extend(sets.iter().map(String::as_str));
             let mut command = workshop.command(&arguments);
-            command.env("PYTHONPATH", &stubs);
+            command.env("PYTHONPATH", stubs);
             workshop.start_command(command).wait().succeeds();
             columns(&workshop.read(&format!("{name}/results.csv")))
         };
@@ -166,40 +148,16 @@ fn it_agrees_with_the_built_in_worker_to_rounding() {
     }
 }
 
-/// The worker's program, which ends with this.
-struct Program(Child);
-
-impl Drop for Program {
-    fn drop(&mut self) {
-        self.0.kill().unwrap();
-        self.0.wait().unwrap();
-    }
-}
-
 /// The program, and its calls as exchanges.
 fn serve(workshop: &Workshop) -> (Program, UnaryTurns<Grpc>) {
-    let (python, stubs) = python();
-    let mut command = Command::new(python);
-    command
-        .arg(Path::new(REPOSITORY).join("tests/python/oscillator_worker.py"))
-        .arg("--listen")
-        .arg(format!(
-            "unix:{}",
-            workshop.path().join("foreign").display()
-        ))
-        .env("PYTHONPATH", stubs)
-        .stdout(Stdio::piped());
-    let mut program = Program(command.spawn().unwrap());
-    let mut line = String::new();
-    let output = program.0.stdout.take().unwrap();
-    BufReader::new(output).read_line(&mut line).unwrap();
-    let address = line.trim().strip_prefix("listening on ").unwrap();
+    let socket = workshop.path().join("foreign");
+    let program = Program::start(&worker(), &python().stubs, &socket);
     let limits = TimeLimits {
         start: Duration::from_secs(10),
         answer: Duration::from_secs(10),
     };
     let runtime = new_runtime().unwrap();
-    let grpc = Grpc::connect(address, limits, runtime, Interrupt::default()).unwrap();
+    let grpc = Grpc::connect(program.address(), limits, runtime, Interrupt::default()).unwrap();
     (program, UnaryTurns::new(grpc))
 }
 

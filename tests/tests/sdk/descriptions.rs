@@ -7,6 +7,7 @@ use linchpin_proto::v1::{self, value::Kind};
 
 use crate::both_ways;
 use crate::driver::{assert_misuse, failure, number};
+use crate::in_python;
 use crate::joint_loads::stand;
 use crate::peer::{Serve, host};
 use crate::stand::at_pose;
@@ -14,6 +15,11 @@ use crate::stand::at_pose;
 both_ways!(
     a_named_model_is_described_with_its_parameters,
     mistakes_in_a_description_are_named,
+    texts_and_lists_are_checked,
+    an_instance_has_the_variables_of_its_parameters,
+);
+
+in_python!(
     texts_and_lists_are_checked,
     an_instance_has_the_variables_of_its_parameters,
 );

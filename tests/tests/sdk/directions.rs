@@ -4,6 +4,7 @@ use linchpin_proto::v1;
 
 use crate::both_ways;
 use crate::driver::{Driver, assert_misuse, constant, failure, number, oscillator, through};
+use crate::in_python;
 use crate::peer::{Serve, host};
 use crate::subjects::{ROUTES, STEP, advance, evaluate, load, predict, subjects};
 
@@ -15,6 +16,15 @@ both_ways!(
     a_derivative_needs_no_step_before_it,
     derivatives_disturb_nothing_and_are_counted_apart,
     who_does_not_offer_them_refuses,
+    a_wrong_direction_is_named,
+);
+
+in_python!(
+    the_exact_solver_gives_the_closed_form,
+    every_solver_gives_the_quotient_of_differences,
+    an_evaluation_gives_the_feed_through,
+    a_derivative_needs_no_step_before_it,
+    derivatives_disturb_nothing_and_are_counted_apart,
     a_wrong_direction_is_named,
 );
 
@@ -275,7 +285,7 @@ fn who_does_not_offer_them_refuses(serve: Serve) {
         .collect();
     assert_eq!(offering, ["oscillator", "pi-controller"]);
     for route in ROUTES {
-        for (place, (name, instance)) in (0..).zip(subjects()) {
+        for (place, (name, instance)) in (0..).zip(subjects(serve)) {
             let mut driver = route.drive(&peer, &instance, place);
             let evaluation = v1::ExchangeRequest {
                 evaluate: Some(evaluate(0, 0.5)),

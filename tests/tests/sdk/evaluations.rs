@@ -2,12 +2,12 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{assert_misuse, oscillator};
 use crate::peer::{Serve, host};
 use crate::subjects::{ROUTES, advance, bits, evaluate, predict, subjects};
 
-both_ways!(
+all_ways!(
     an_evaluation_stands_beside_a_prediction,
     an_evaluation_feels_its_inputs_at_once,
     an_evaluation_has_no_length,
@@ -17,7 +17,7 @@ both_ways!(
 /// Each part has the bits that it has alone, and an evaluation is no integration.
 fn an_evaluation_stands_beside_a_prediction(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in subjects() {
+        for (name, instance) in subjects(serve) {
             let peer = serve(host());
             let [mut both, mut apart] = [0, 1].map(|number| route.drive(&peer, &instance, number));
             let evaluation = |end| v1::ExchangeRequest {

@@ -6,12 +6,12 @@ use linchpin_master::connection::UnaryTurns;
 use linchpin_proto::v1;
 use linchpin_tests::scripted::Scripted;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{Driver, assert_misuse, constant, oscillator, tank, through};
 use crate::peer::{Serve, host};
 use crate::tank::{LEAK, START};
 
-both_ways!(
+all_ways!(
     exchanges_equal_unary_turns_bit_by_bit,
     a_failure_while_looking_ahead_leaves_the_committed_state,
     a_prediction_of_zero_length_evaluates,

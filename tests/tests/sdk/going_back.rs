@@ -2,13 +2,13 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{assert_misuse, constant, exchange, tank};
 use crate::peer::{Serve, host};
 use crate::subjects::{ROUTES, Route, Subject, advance, bits, evaluate, predict, subjects};
 use crate::tank::START;
 
-both_ways!(
+all_ways!(
     an_advance_that_was_taken_back_leaves_no_trace,
     one_advance_is_taken_back_and_not_two,
     nothing_is_taken_back_after_a_restore,
@@ -46,7 +46,7 @@ fn only_back() -> v1::ExchangeRequest {
 
 fn an_advance_that_was_taken_back_leaves_no_trace(serve: Serve) {
     let peer = serve(host());
-    for (route, (place, (name, instance))) in pairs(subjects()) {
+    for (route, (place, (name, instance))) in pairs(subjects(serve)) {
         let mut straight = route.drive(&peer, &instance, 2 * place);
         let mut wandering = route.drive(&peer, &instance, 2 * place + 1);
         let mut same = |detour: &[v1::ExchangeRequest], last: v1::ExchangeRequest| {

@@ -5,10 +5,17 @@ use linchpin_proto::version::PROTOCOL;
 
 use crate::both_ways;
 use crate::driver::{Driver, assert_misuse, constant, failure, number, oscillator, tank};
+use crate::in_python;
 use crate::peer::{Serve, host};
 
 both_ways!(
     describe_names_models_and_capabilities,
+    another_major_version_is_refused_and_both_are_named,
+    mistakes_are_named_and_leave_nothing_behind,
+    defaults_of_the_description_are_used,
+);
+
+in_python!(
     another_major_version_is_refused_and_both_are_named,
     mistakes_are_named_and_leave_nothing_behind,
     defaults_of_the_description_are_used,

@@ -2,12 +2,12 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{assert_misuse, oscillator, through};
 use crate::peer::{Serve, host};
 use crate::subjects::{ROUTES, STEP, advance, load, predict, subjects};
 
-both_ways!(
+all_ways!(
     a_step_goes_from_instant_to_instant,
     perturbed_steps_are_cut_like_the_step,
     both_routes_have_equal_bits,
@@ -67,7 +67,7 @@ fn by_hand(mut turn: impl FnMut(v1::Advance) -> Vec<f64>) -> (Vec<f64>, Vec<f64>
 
 fn a_step_goes_from_instant_to_instant(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in subjects() {
+        for (name, instance) in subjects(serve) {
             let peer = serve(host());
             let mut cut = route.drive(&peer, &inside(&instance), 0);
             let mut parts = route.drive(&peer, &instance, 1);
@@ -92,7 +92,7 @@ fn a_step_goes_from_instant_to_instant(serve: Serve) {
 /// With the signal of the step itself in place of its perturbed one nothing changes, to the bit.
 fn perturbed_steps_are_cut_like_the_step(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in subjects() {
+        for (name, instance) in subjects(serve) {
             let peer = serve(host());
             let mut driver = route.drive(&peer, &inside(&instance), 0);
             let mut request = looking(0, 4.0);
@@ -112,7 +112,7 @@ fn perturbed_steps_are_cut_like_the_step(serve: Serve) {
 }
 
 fn both_routes_have_equal_bits(serve: Serve) {
-    for (name, instance) in subjects() {
+    for (name, instance) in subjects(serve) {
         let peer = serve(host());
         let [fused, unary] = ROUTES.map(|route| {
             let mut driver = route.drive(&peer, &inside(&instance), 0);

@@ -6,7 +6,7 @@ use linchpin_proto::weights::{MAX_WEIGHTS, legendre};
 use crate::both_ways;
 use crate::driver::{assert_misuse, failure, oscillator, tank, through};
 use crate::peer::{Serve, host};
-use crate::subjects::{ROUTES, STEP, Subject, advance, bits, load, predict, subjects};
+use crate::subjects::{ROUTES, STEP, Subject, advance, all_subjects, bits, load, predict};
 
 both_ways!(
     they_are_those_of_the_outputs,
@@ -23,7 +23,9 @@ const WEIGHTS: u32 = 4;
 
 /// Subjects that offer integrals, with all coupling outputs integrated and told at instants.
 fn offering() -> impl Iterator<Item = Subject> {
-    let offering = subjects().into_iter().filter(|(name, _)| *name != "tank");
+    let offering = all_subjects()
+        .into_iter()
+        .filter(|(name, _)| *name != "tank");
     offering.map(|(name, instance)| (name, integrated(&instance)))
 }
 

@@ -5,13 +5,13 @@ use linchpin_proto::joint_load::{End, JointLaw, Law};
 use linchpin_proto::v1;
 use nalgebra::Vector3;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{assert_misuse, failure, oscillator, tank};
 use crate::joint_loads::stand;
 use crate::peer::{Serve, host};
 use crate::stand::{at_pose, named};
 
-both_ways!(
+all_ways!(
     models_without_the_capability_say_what_to_do,
     wrong_laws_are_named,
     wrong_places_are_named,

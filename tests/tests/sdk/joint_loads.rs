@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 
 use crate::both_ways;
 use crate::driver::{Driver, FIRST, assert_misuse, constant, failure, number, through, values};
+use crate::in_python;
 use crate::peer::{Serve, host};
 use crate::stand::{at_pose, named};
 
@@ -19,6 +20,16 @@ both_ways!(
     accelerations_feel_the_load_at_zero_length,
     columns_of_joint_inputs_are_no_noise,
     a_restored_state_gives_the_same_bits,
+    repeated_numbers_get_the_first_answer,
+    a_joint_input_needs_a_signal,
+);
+
+in_python!(
+    places_of_joint_inputs_follow_those_of_driven_inputs,
+    a_driven_input_can_be_the_multiplier,
+    impulses_follow_the_polynomials_of_joint_inputs,
+    perturbed_joint_inputs_are_those_of_the_steps_that_they_stand_for,
+    an_exchange_is_the_step_and_the_evaluation_that_it_stands_for,
     repeated_numbers_get_the_first_answer,
     a_joint_input_needs_a_signal,
 );

@@ -40,3 +40,22 @@ macro_rules! both_ways {
     };
 }
 pub(crate) use both_ways;
+
+/// Makes a test of every function against a worker of the Python SDK, whose models are those of worker/python/tests/models.py.
+macro_rules! in_python {
+    ($($name:ident),+ $(,)?) => {
+        mod in_python {
+            $(#[test] fn $name() { super::$name(crate::peer::Peer::in_python); })+
+        }
+    };
+}
+pub(crate) use in_python;
+
+/// Both ways, and against a worker of the Python SDK.
+macro_rules! all_ways {
+    ($($name:ident),+ $(,)?) => {
+        crate::both_ways!($($name),+);
+        crate::in_python!($($name),+);
+    };
+}
+pub(crate) use all_ways;

@@ -10,6 +10,7 @@ use linchpin_master::connection::{Connection, ExchangeStream, Grpc, TimeLimits, 
 use linchpin_models::models;
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1;
+use linchpin_tests::python::{Program, in_repository};
 use linchpin_worker::Host;
 use linchpin_worker::host::Limits;
 use linchpin_worker::server::{Address, Reach, Server};
@@ -35,17 +36,24 @@ pub fn host_with(limits: Limits) -> Arc<Host> {
     Arc::new(Host::with_limits(all, limits))
 }
 
-/// A worker, and the server between if there is one.
+/// A worker, and what it lives in.
 pub struct Peer {
     calls: Arc<dyn Contract>,
-    _server: Option<Served>,
+    _lives_in: Home,
+}
+
+/// What a worker lives in, which ends with the peer.
+enum Home {
+    Process,
+    Server { _server: Served },
+    Python { _program: Program, _folder: TempDir },
 }
 
 impl Peer {
     pub fn in_process(contract: Arc<dyn Contract>) -> Self {
         Self {
             calls: contract,
-            _server: None,
+            _lives_in: Home::Process,
         }
     }
 
@@ -53,7 +61,22 @@ impl Peer {
         let server = Served::start(contract);
         Self {
             calls: Arc::new(Remote::connect(&server.address)),
-            _server: Some(server),
+            _lives_in: Home::Server { _server: server },
+        }
+    }
+
+    /// A worker of the Python SDK in the place of the one that is given; it has an oscillator, a tank and a stand.
+    pub fn in_python(_: Arc<dyn Contract>) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let models = in_repository("worker/python/tests/models.py");
+        let package = in_repository("worker/python/src");
+        let program = Program::start(&models, &package, &folder.path().join("worker.sock"));
+        Self {
+            calls: Arc::new(Remote::connect(program.address())),
+            _lives_in: Home::Python {
+                _program: program,
+                _folder: folder,
+            },
         }
     }
 

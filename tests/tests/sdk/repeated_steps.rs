@@ -2,11 +2,11 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{Driver, constant, tank};
 use crate::peer::{Serve, host};
 
-both_ways!(
+all_ways!(
     in_an_exchange_they_repeat_the_prediction,
     after_a_restore_they_repeat_the_step_before_it,
     what_a_failed_step_left_behind_is_not_repeated,

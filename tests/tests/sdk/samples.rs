@@ -2,12 +2,12 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{assert_misuse, oscillator, tank, through};
 use crate::peer::{Serve, host};
 use crate::subjects::{ROUTES, STEP, advance, bits, evaluate, predict, subjects};
 
-both_ways!(
+all_ways!(
     samples_disturb_nothing,
     a_sample_is_the_end_of_a_shorter_step,
     samples_outside_of_their_step_or_out_of_order_are_refused,
@@ -28,7 +28,7 @@ fn sampled(number: u32, end: f64, samples: &[f64]) -> v1::ExchangeRequest {
 
 fn samples_disturb_nothing(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in subjects() {
+        for (name, instance) in subjects(serve) {
             let peer = serve(host());
             let [mut plain, mut watched] =
                 [0, 1].map(|number| route.drive(&peer, &instance, number));
@@ -54,7 +54,7 @@ fn samples_disturb_nothing(serve: Serve) {
 
 fn a_sample_is_the_end_of_a_shorter_step(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in subjects() {
+        for (name, instance) in subjects(serve) {
             let peer = serve(host());
             let mut watched = route.drive(&peer, &instance, 0);
             let answer = watched.turn(sampled(0, 4.0, &SAMPLES)).unwrap();

@@ -2,14 +2,14 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{
     Driver, FIRST, assert_misuse, constant, exchange, failure, tank, through, values,
 };
 use crate::peer::{Serve, host};
 use crate::tank::START;
 
-both_ways!(
+all_ways!(
     a_repeated_call_gets_its_first_answer_and_changes_nothing,
     only_the_last_and_the_next_number_are_taken,
     a_call_that_failed_fails_again_and_its_number_is_used_up,

@@ -2,12 +2,12 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{Driver, assert_misuse, constant, oscillator, tank, through};
 use crate::peer::{Serve, host};
 use crate::tank::{LEAK, START};
 
-both_ways!(
+all_ways!(
     every_degree_is_followed_exactly,
     an_input_without_a_signal_has_its_default,
     an_input_without_a_default_needs_a_signal,

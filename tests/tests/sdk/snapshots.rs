@@ -5,12 +5,19 @@ use linchpin_worker::host::Limits;
 
 use crate::both_ways;
 use crate::driver::{Driver, assert_misuse, constant, oscillator, tank, through};
+use crate::in_python;
 use crate::peer::{Serve, host, host_with};
 use crate::tank::START;
 
 both_ways!(
     a_restored_state_replays_bit_by_bit,
     as_many_as_the_limit_allows_and_a_replaced_one_is_gone,
+    what_was_looked_ahead_is_not_kept,
+    an_exchange_goes_on_from_a_restored_state,
+);
+
+in_python!(
+    a_restored_state_replays_bit_by_bit,
     what_was_looked_ahead_is_not_kept,
     an_exchange_goes_on_from_a_restored_state,
 );

@@ -8,7 +8,7 @@ use linchpin_proto::v1::{self, value::Kind};
 use linchpin_tests::scripted::Scripted;
 
 use crate::driver::{Driver, number, oscillator, tank, through};
-use crate::peer::Peer;
+use crate::peer::{Peer, Serve, host};
 
 /// Length of a macro step (s).
 pub const STEP: f64 = 1.7e-3;
@@ -16,8 +16,20 @@ pub const STEP: f64 = 1.7e-3;
 /// A name for messages, and the request with which an instance starts.
 pub type Subject = (&'static str, v1::InitializeRequest);
 
+/// The subjects whose models a worker has.
+pub fn subjects(serve: Serve) -> Vec<Subject> {
+    let described = serve(host())
+        .calls()
+        .describe(&v1::DescribeRequest::default());
+    let models = described.unwrap().models;
+    let is_there = |name: &str| models.iter().any(|model| model.name == name);
+    let mut subjects = all_subjects();
+    subjects.retain(|(_, request)| is_there(&request.model));
+    subjects
+}
+
 /// Exact, adaptive and fixed steps, minimal and absolute coordinates.
-pub fn subjects() -> Vec<Subject> {
+pub fn all_subjects() -> Vec<Subject> {
     vec![
         ("exact oscillator", oscillator(5, "exact")),
         ("adaptive oscillator", oscillator(5, "radau5")),

@@ -1,0 +1,224 @@
+"""A subsystem on its way: steps and looks ahead, and the states that it can go back to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from enum import Enum
+
+from ._contract import worker_pb2 as pb
+from .description import Description
+from .failures import misuse
+from .inputs import Inputs
+from .interval import Interval, Part, check_inside, check_integrals, parts
+from .readable import number
+from .signals import Signals, find
+from .solver import Solver
+from .state import Kept
+from .subsystem import Subsystem
+
+NOTHING_TO_TAKE_BACK = (
+    "the committed state is not the end of an advance, so there is nothing to take back: one advance can be, not two; "
+    "further back there are Snapshot and Restore"
+)
+
+
+class Base(Enum):
+    """Which state a step starts from."""
+
+    COMMITTED = "committed"
+    ADVANCED = "advanced"
+
+
+class Motion:
+    """A subsystem with its signals, and the state that it has for its master.
+
+    The solver itself may stand elsewhere, at the end of a step that was only tried; every call goes back first.
+    """
+
+    def __init__(self, subsystem: Subsystem, signals: Signals, description: Description, request: pb.InitializeRequest) -> None:
+        known = description.outputs
+        if request.integrated_outputs:
+            text = f"the model {description.name} does not offer integrals of outputs"
+            rule = "leave integrated_outputs empty where the capabilities do not say output_integrals"
+            raise misuse("integrated_outputs", f"{text}; {rule}")
+        self._coupling = find(known, request.coupling_outputs, "coupling_outputs")
+        self._all = self._coupling + find(known, request.recorded_outputs, "recorded_outputs")
+        self._interior = find(known, request.interior_outputs, "interior_outputs")
+        self._description = description
+        self._signals = signals
+        self.solver = Solver(subsystem, known)
+        self.committed = self.solver.keep()
+        self._advanced = self.committed
+        self._previous: Kept | None = None
+
+    def take(self, signals: Iterable[pb.Signal], integrals: int = 0) -> None:
+        """Takes the signals of a request for the steps that follow."""
+        self._signals.set(signals)
+        check_integrals(integrals)
+
+    def advance(self, interval: Interval, instants: Sequence[float], outputs: pb.OutputSet) -> list[float]:
+        """Steps from the committed state, cut at `instants`; `commit` makes the end the committed state."""
+        wanted = self._all if outputs == pb.OUTPUT_SET_ALL else self._coupling
+        self._go_to(Base.COMMITTED)
+        values = self._step_cut(interval, instants, wanted) if instants else self._step(interval, wanted)
+        self._advanced = self.solver.keep()
+        return values
+
+    def sample(self, interval: Interval) -> list[float]:
+        """All outputs after a shorter step than the advance, from where it started and under its signals."""
+        self._go_to(Base.COMMITTED)
+        return self._step(interval, self._all)
+
+    def commit(self) -> None:
+        """Makes the end of the advance the committed state."""
+        self._previous, self.committed = self.committed, self._advanced
+
+    def take_back(self) -> Kept:
+        """Makes the state that the last advance started from the committed one; answers with the one before."""
+        if self._previous is None:
+            raise misuse("go_back", NOTHING_TO_TAKE_BACK)
+        taken_back, self.committed, self._previous = self.committed, self._previous, None
+        return taken_back
+
+    def stay(self, taken_back: Kept) -> None:
+        """Undoes `take_back`, after which nothing was committed."""
+        self._previous, self.committed = self.committed, taken_back
+
+    def restore(self, kept: Kept) -> None:
+        """Makes `kept` the committed state."""
+        self.solver.go_to(kept)
+        self.committed, self._previous = kept, None
+
+    def look_ahead(
+        self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
+    ) -> tuple[list[float], list[pb.Outputs]]:
+        """Coupling outputs at the end of `interval` and interior ones at `instants`, and again for every perturbed signal."""
+        if instants and interval.length > 0.0:
+            values, *others = self._look_ahead_cut(base, interval, instants, perturbed)
+            self.solver.integrations += 1
+            return values, [pb.Outputs(values=other) for other in others]
+        self._go_to(base)
+        values = self._step(interval, self._coupling)
+        return values, self.look_ahead_perturbed(base, interval, (), perturbed)
+
+    def look_ahead_perturbed(
+        self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
+    ) -> list[pb.Outputs]:
+        """As `look_ahead`, with every perturbed signal in place of the present signal of its input only."""
+        if instants:
+            # The first one is taken for its internal steps, which the others repeat.
+            _, *others = self._look_ahead_cut(base, interval, instants, perturbed)
+            return [pb.Outputs(values=other) for other in others]
+        outputs = []
+        for signal in perturbed:
+            inputs = self._signals.replaced(signal, interval.length)
+            self._go_to(base)
+            if interval.length > 0.0:
+                self.solver.step_perturbed(interval, inputs)
+            values = self.solver.outputs(interval, inputs.at_end, self._coupling)
+            outputs.append(pb.Outputs(values=values))
+        return outputs
+
+    def look_in_directions(
+        self, base: Base, interval: Interval, instants: Sequence[float], directions: Sequence[pb.Signal]
+    ) -> list[pb.Outputs]:
+        """Derivatives of what `look_ahead` tells. Those at an instant are derivatives over the step that ends there."""
+        outputs = self.derivatives(base, interval, directions, self._coupling)
+        if interval.length > 0.0:
+            check_inside("instants", "instant", instants, interval.length)
+            counted = self.solver.derivatives
+            for instant in instants:
+                shorter = Interval(interval.start, instant)
+                inside = self.derivatives(base, shorter, directions, self._interior)
+                for whole, own in zip(outputs, inside, strict=True):
+                    whole.values.extend(own.values)
+            self.solver.derivatives = counted
+        return outputs
+
+    def derivatives(
+        self, base: Base, interval: Interval, directions: Sequence[pb.Signal], wanted: Sequence[int]
+    ) -> list[pb.Outputs]:
+        """Derivatives of the outputs numbered `wanted` at the end of `interval`, one for each direction."""
+        if directions and not self._description.directional_derivatives:
+            raise misuse("directions", "this model does not offer directional derivatives")
+        outputs = []
+        for signal in directions:
+            direction = self._signals.direction(signal, interval.length)
+            self._go_to(base)
+            inputs = self._signals.inputs(interval.length)
+            values = self.solver.derivative(interval, inputs, direction, wanted)
+            outputs.append(pb.Outputs(values=values))
+        return outputs
+
+    def evaluate(self, request: pb.EvaluateRequest) -> pb.EvaluateReply:
+        """Outputs of the committed state by their names, and their derivatives in each direction."""
+        if not math.isfinite(request.t):
+            raise misuse("t", f"t = {number(request.t)}: it must be a finite number")
+        wanted = find(self._description.outputs, request.outputs, "outputs")
+        self.take(request.signals)
+        self._go_to(Base.COMMITTED)
+        now = Interval(request.t, 0.0)
+        values = self._step(now, wanted)
+        derivatives = self.derivatives(Base.COMMITTED, now, request.directions, wanted)
+        return pb.EvaluateReply(outputs=pb.Outputs(values=values), derivatives=derivatives)
+
+    def _go_to(self, base: Base) -> None:
+        self.solver.go_to(self.committed if base is Base.COMMITTED else self._advanced)
+
+    def _step(self, interval: Interval, wanted: Sequence[int]) -> list[float]:
+        """Outputs after a step from where the solver stands; one of length 0 evaluates."""
+        inputs = self._signals.inputs(interval.length)
+        if interval.length > 0.0:
+            self.solver.step(interval, inputs)
+        return self.solver.outputs(interval, inputs.at_end, wanted)
+
+    def _step_cut(self, interval: Interval, instants: Sequence[float], wanted: Sequence[int]) -> list[float]:
+        """Outputs after a step that is cut at `instants`, then interior ones at each of them."""
+        check_inside("instants", "instant", instants, interval.length)
+        self.solver.begin_cut()
+        self.solver.integrations += 1
+        inputs, at_end, inside = self._signals.inputs(interval.length), [], []
+        for part in parts(interval.length, instants):
+            own = self._part(interval, part, inputs, wanted, is_repeated=False)
+            if part.is_last:
+                at_end = own
+            else:
+                inside += own
+        self.solver.arrive()
+        return at_end + inside
+
+    def _look_ahead_cut(
+        self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
+    ) -> list[list[float]]:
+        """The step as it is and with every perturbed signal, side by side from instant to instant.
+
+        Between two instants the perturbed ones repeat the internal steps of the one that is not, from states of their own.
+        """
+        check_inside("instants", "instant", instants, interval.length)
+        length = interval.length
+        inputs = [self._signals.inputs(length), *(self._signals.replaced(signal, length) for signal in perturbed)]
+        self.solver.integrations += len(perturbed)
+        self.solver.begin_cut()
+        self._go_to(base)
+        states = [self.solver.save()] * len(inputs)
+        inside: list[list[float]] = [[] for _ in inputs]
+        at_end: list[list[float]] = []
+        for part in parts(length, instants):
+            for place, own in enumerate(inputs):
+                self.solver.load(states[place])
+                values = self._part(interval, part, own, self._coupling, is_repeated=place > 0)
+                if part.is_last:
+                    at_end.append(values)
+                else:
+                    inside[place] += values
+                    states[place] = self.solver.save()
+        return [last + interior for last, interior in zip(at_end, inside, strict=True)]
+
+    def _part(self, interval: Interval, part: Part, inputs: Inputs, wanted: Sequence[int], is_repeated: bool) -> list[float]:
+        """Steps over one part, and tells the outputs `wanted` at the end of the step or the interior ones before."""
+        own = Interval(interval.start + part.start, part.end - part.start)
+        shifted = inputs.starting_at(part.start, own.length)
+        self.solver.step_under_way(own, shifted, is_repeated)
+        at_part_end = Interval(interval.start, part.end)
+        return self.solver.outputs(at_part_end, inputs(part.end), wanted if part.is_last else self._interior)
