@@ -272,7 +272,10 @@ impl Correcting<'_> {
                     },
                 );
             }
-            errors.take_lever(largest);
+            match largest[1] > 0.0 {
+                true => errors.take_lever((largest[0] / largest[1]).sqrt()),
+                false => errors.take_lever(arm_of_forces(self.own, self.layout)),
+            }
         }
         let ends: &[f64] = self.method.ends();
         visit_effects(
@@ -393,6 +396,44 @@ impl Correcting<'_> {
             by_first: deferred.learn(remaining, size),
         }
     }
+}
+
+/// How far forces at the joints move markers for each radian by which they turn the bodies; 0 if they turn none.
+fn arm_of_forces(own: &Corrector, layout: &Layout) -> f64 {
+    let (unknowns, columns) = (own.end.system.unknowns(), own.end.columns.all());
+    let [mut length, mut angle] = [0.0_f64; 2];
+    for (number, input) in layout.inputs.iter().enumerate() {
+        if !input.drives_load(layout.rows.len()) {
+            continue;
+        }
+        for column in unknowns.columns(number) {
+            let response = |place: usize| columns[column].derivatives.get(place).copied();
+            let ends = layout.joints.iter().flat_map(|joint| &joint.ends);
+            for end in ends.filter(|end| end.subsystem == input.subsystem) {
+                let moved = end
+                    .coordinates()
+                    .iter()
+                    .filter_map(|&place| response(place));
+                length = moved.fold(length, |length, moved| length.max(moved.abs()));
+            }
+            let frames = layout
+                .frames
+                .iter()
+                .filter(|frame| frame.subsystem == input.subsystem);
+            for frame in frames {
+                let changes = frame.attitude.iter().filter_map(|&place| response(place));
+                let size = changes.map(|change| change * change).sum::<f64>().sqrt();
+                // A quaternion changes by half of the angle.
+                let turned = if frame.attitude.len() > 1 {
+                    2.0 * size
+                } else {
+                    size
+                };
+                angle = angle.max(turned);
+            }
+        }
+    }
+    if angle > 0.0 { length / angle } else { 0.0 }
 }
 
 /// Visits the positions at all joints, subsystem and output, whether they are lengths, and by how much multipliers of these values, constant
