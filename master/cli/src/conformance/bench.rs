@@ -1,0 +1,329 @@
+//! What every check starts from: instances of the subject that are in motion.
+//!
+//! An instance that has just begun shows little: a body at rest, parallel to the inertial axes, hides wrong frames and wrong
+//! rates. So the kit first drives every instance over [`PRELUDE`] macro steps with inputs that go up and down, each as large
+//! as it takes to move a marker about as much as gravity does.
+
+use std::cell::Cell;
+use std::f64::consts::TAU;
+use std::hash::{BuildHasher, RandomState};
+
+use linchpin_master::connection::Connection;
+use linchpin_proto::contract::CallError;
+use linchpin_proto::v1;
+use linchpin_proto::version::{PROTOCOL, negotiate};
+
+use super::inputs::{HIGHEST_DEGREE, Inputs};
+use super::instance::Instance;
+use super::peer::Peer;
+use super::subject::{Motion, Subject};
+use super::verdict::{Grade, Stop};
+use super::{ConformanceError, Settings};
+
+/// Macro steps before a check begins.
+pub const PRELUDE: usize = 100;
+
+/// Accelerations that inputs are to cause where the model has no larger ones: m/s^2 and rad/s^2.
+const LIVELY: [(Motion, f64); 2] = [(Motion::Translation, 10.0), (Motion::Rotation, 30.0)];
+
+/// Shares of the inputs' sizes that are tried, before none, until the model takes the steps of the prelude.
+const SHARES: [f64; 2] = [1.0, 0.1];
+
+/// First sequence number: any is right, since the master chooses it.
+const FIRST: u64 = 4001;
+
+/// The subject with its worker and what is known of both.
+pub struct Bench<'p> {
+    peer: &'p dyn Peer,
+    connection: Box<dyn Connection>,
+    settings: &'p Settings,
+    /// Name of the worker's program.
+    pub worker: String,
+    /// Its version.
+    pub worker_version: String,
+    /// The model.
+    pub subject: Subject,
+    /// How much each input is changed, in its unit.
+    pub sizes: Vec<f64>,
+    /// Protocol of the worker.
+    pub protocol: Option<v1::ProtocolVersion>,
+    /// Error tolerance that the solver says it has.
+    pub told_tolerance: Option<f64>,
+    /// Its value in the units of the outputs; 0 if the solver says that it is exact.
+    pub tolerance: f64,
+    /// Whether the solver has unilateral contacts: then motions have corners, and accelerations are not linear in the loads.
+    pub has_contacts: bool,
+    /// Share of the sizes during the prelude.
+    share: f64,
+    next_number: Cell<u64>,
+}
+
+impl<'p> Bench<'p> {
+    /// Reads the description, finds sizes for the inputs, and drives a first instance.
+    ///
+    /// # Errors
+    /// [`ConformanceError`] if no instance of the model takes steps.
+    pub fn new(peer: &'p dyn Peer, settings: &'p Settings) -> Result<Self, ConformanceError> {
+        let connection = peer.connect()?;
+        let (reply, model) = describe(&*connection, settings)?;
+        let subject = Subject::new(&model)?;
+        let mut bench = Self {
+            peer,
+            connection,
+            settings,
+            worker: reply.worker,
+            worker_version: reply.worker_version,
+            sizes: vec![1.0; subject.inputs.len()],
+            subject,
+            protocol: reply.protocol,
+            told_tolerance: None,
+            tolerance: 0.0,
+            has_contacts: false,
+            share: 1.0,
+            next_number: Cell::new(RandomState::new().hash_one(PROTOCOL.minor)),
+        };
+        let failed = |source| ConformanceError::Initialize {
+            model: model.name.clone(),
+            source,
+        };
+        let (instance, reply) = bench.initialize(&bench.request()).map_err(failed)?;
+        let (told, sizes) = (reply.tolerance, sizes(&instance));
+        drop(instance);
+        (bench.told_tolerance, bench.sizes) = (told, sizes);
+        bench.tolerance = told.filter(|told| told.is_finite()).unwrap_or(0.0).max(0.0);
+        bench.find_share()?;
+        Ok(bench)
+    }
+
+    /// Finds how large the inputs of the prelude may be.
+    fn find_share(&mut self) -> Result<(), ConformanceError> {
+        for share in SHARES {
+            self.share = share;
+            if self.notice_contacts().is_ok() {
+                return Ok(());
+            }
+        }
+        self.share = 0.0;
+        self.notice_contacts()
+            .map_err(|stop| ConformanceError::useless(&self.subject.name, stop))
+    }
+
+    fn notice_contacts(&mut self) -> Result<(), Stop> {
+        let has_contacts = self.in_motion()?.has_contacts;
+        self.has_contacts = has_contacts;
+        Ok(())
+    }
+
+    /// The macro steps (s) at which the model will be used.
+    pub fn steps(&self) -> &[f64] {
+        &self.settings.steps
+    }
+
+    /// The first of them.
+    pub fn step(&self) -> f64 {
+        self.settings.steps[0]
+    }
+
+    /// The request for a further instance: all inputs, all outputs, and all that the model offers of them.
+    pub fn request(&self) -> v1::InitializeRequest {
+        let number = self.next_number.get();
+        self.next_number.set(number.wrapping_add(1));
+        let offered = |is_offered: bool| match is_offered {
+            true => self.subject.outputs.clone(),
+            false => Vec::new(),
+        };
+        v1::InitializeRequest {
+            instance: number,
+            sequence: FIRST,
+            protocol: Some(PROTOCOL),
+            model: self.subject.name.clone(),
+            parameters: self.settings.parameters.clone(),
+            solver: self.settings.solver.clone(),
+            t_start: 0.0,
+            inputs: self.subject.inputs.clone(),
+            coupling_outputs: self.subject.outputs.clone(),
+            interior_outputs: offered(self.subject.capabilities.interior_outputs),
+            integrated_outputs: offered(self.subject.capabilities.output_integrals),
+            ..v1::InitializeRequest::default()
+        }
+    }
+
+    /// The instance that a request asks for.
+    pub fn initialize(
+        &self,
+        request: &v1::InitializeRequest,
+    ) -> Result<(Instance<'_>, v1::InitializeReply), CallError> {
+        Instance::initialize(self.connection.contract(), &self.subject, request)
+    }
+
+    /// An instance at its start.
+    pub fn at_start(&self) -> Result<Instance<'_>, Stop> {
+        Ok(self.initialize(&self.request())?.0)
+    }
+
+    /// An instance behind the prelude.
+    pub fn in_motion(&self) -> Result<Instance<'_>, Stop> {
+        self.driven(&self.request(), &[])
+    }
+
+    /// The instance of a request that has joint inputs, behind the prelude; the joint inputs keep these values.
+    pub fn driven(
+        &self,
+        request: &v1::InitializeRequest,
+        joint_inputs: &[f64],
+    ) -> Result<Instance<'_>, Stop> {
+        let (mut instance, _) = self.initialize(request)?;
+        for number in 0..PRELUDE {
+            let inputs = self.prelude(number).and(joint_inputs);
+            instance.step(self.step(), &inputs)?;
+        }
+        Ok(instance)
+    }
+
+    /// Inputs of the macro step number `number`: constants that go up and down, each at a pace of its own.
+    pub fn prelude(&self, number: usize) -> Inputs {
+        let turns = number as f64 / PRELUDE as f64;
+        let value = |input: usize| {
+            let pace = 1.0 + 0.5 * (input % 3) as f64;
+            let share = self.share * (TAU * pace * turns + input as f64).cos();
+            self.subject.defaults[input] + share * self.sizes[input]
+        };
+        Inputs::constant(&(0..self.sizes.len()).map(value).collect::<Vec<_>>())
+    }
+
+    /// Nothing but the defaults.
+    pub fn unloaded(&self) -> Inputs {
+        Inputs::constant(&self.subject.defaults)
+    }
+
+    /// Every input changed by about its size, as a polynomial that has all powers up to `degree`, or up to what the model
+    /// takes.
+    pub fn loaded(&self, degree: usize) -> Inputs {
+        let degree = degree
+            .min(self.subject.highest_degree())
+            .min(HIGHEST_DEGREE);
+        let mut inputs = self.unloaded();
+        for (input, size) in self.sizes.iter().enumerate() {
+            for power in 0..=degree {
+                let share = (1.0 + (2 * input + 3 * power) as f64).cos();
+                inputs = inputs.plus(input, share * size, power);
+            }
+        }
+        inputs
+    }
+
+    /// A further connection, with an exchange stream of its own.
+    pub fn connect(&self) -> Result<Box<dyn Connection>, Stop> {
+        Ok(self.peer.connect()?)
+    }
+
+    /// The connection that instances are called over.
+    pub fn calls(&self) -> &dyn linchpin_proto::contract::Contract {
+        self.connection.contract()
+    }
+
+    /// Whether the worker still answers.
+    pub fn is_alive(&self) -> bool {
+        let request = v1::DescribeRequest {
+            protocol: Some(PROTOCOL),
+            ..Default::default()
+        };
+        let is_answer = |reply: &Result<_, CallError>| !matches!(reply, Err(error) if Stop::Call(error.clone()).is_loss());
+        is_answer(&self.calls().describe(&request))
+    }
+
+    /// The grade of results that are not what smooth mechanics asks for: with contacts, there may be a reason.
+    pub fn grade_of_motion(&self) -> Grade {
+        match self.has_contacts {
+            true => Grade::Warn,
+            false => Grade::Fail,
+        }
+    }
+}
+
+fn describe(
+    connection: &dyn Connection,
+    settings: &Settings,
+) -> Result<(v1::DescribeReply, v1::Model), ConformanceError> {
+    let ask = |model: Option<String>| {
+        let request = v1::DescribeRequest {
+            protocol: Some(PROTOCOL),
+            parameters: match &model {
+                Some(_) => settings.parameters.clone(),
+                None => Default::default(),
+            },
+            model,
+        };
+        let reply = connection.contract().describe(&request);
+        reply.map_err(ConformanceError::Describe)
+    };
+    let all = ask(None)?;
+    negotiate(all.protocol.as_ref())?;
+    let names: Vec<&str> = all.models.iter().map(|model| &*model.name).collect();
+    let name = match (&settings.model, &names[..]) {
+        (_, []) => return Err(ConformanceError::NoModel),
+        (Some(name), _) => name.clone(),
+        (None, [only]) => (*only).to_owned(),
+        (None, _) => {
+            return Err(ConformanceError::WhichModel {
+                known: names.join(", "),
+            });
+        }
+    };
+    let known = names.join(", ");
+    if !names.contains(&name.as_str()) {
+        return Err(ConformanceError::UnknownModel { name, known });
+    }
+    let mut reply = ask(Some(name.clone()))?;
+    match reply.models.iter().position(|model| model.name == name) {
+        Some(place) => {
+            let model = reply.models.swap_remove(place);
+            Ok((reply, model))
+        }
+        None => Err(ConformanceError::UnknownModel { name, known }),
+    }
+}
+
+/// For each input the change that makes no acceleration of a marker change by more than the largest acceleration of its kind,
+/// or [`LIVELY`]; 1 where no acceleration answers.
+fn sizes(instance: &Instance<'_>) -> Vec<f64> {
+    let subject = instance.subject;
+    let unit = vec![1.0; subject.inputs.len()];
+    let Ok(rest) = instance.evaluate(&subject.defaults) else {
+        return unit;
+    };
+    let accelerations: Vec<(usize, Motion)> = subject
+        .markers
+        .iter()
+        .flat_map(|marker| {
+            let places = marker.acceleration.iter().enumerate();
+            places.map(|(component, &output)| (output, marker.motion(component)))
+        })
+        .collect();
+    let largest = |of: Motion, least: f64| {
+        let own = accelerations.iter().filter(|(_, motion)| *motion == of);
+        own.fold(least, |largest, (output, _)| {
+            largest.max(rest[*output].abs())
+        })
+    };
+    let scales = LIVELY.map(|(motion, least)| (motion, largest(motion, least)));
+    let scale = |motion| {
+        let own = scales.iter().find(|(of, _)| *of == motion);
+        own.map_or(1.0, |(_, scale)| *scale)
+    };
+    let size = |input: usize| {
+        let mut values = subject.defaults.clone();
+        values[input] += 1.0;
+        let changed = instance.evaluate(&values).ok()?;
+        accelerations
+            .iter()
+            .filter_map(|&(output, motion)| {
+                let change = (changed[output] - rest[output]).abs();
+                (change > 1e-9 * rest[output].abs()).then(|| scale(motion) / change)
+            })
+            .min_by(f64::total_cmp)
+    };
+    (0..subject.inputs.len())
+        .map(|input| size(input).unwrap_or(1.0))
+        .collect()
+}

@@ -1,0 +1,87 @@
+//! Integrals of outputs are integrals of outputs.
+
+use linchpin_models::integrators::gauss;
+use linchpin_proto::weights::legendre;
+
+use super::{About, Check};
+use crate::conformance::bench::Bench;
+use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::instance::Inside;
+use crate::conformance::verdict::{Stop, Verdict};
+
+/// Integrals against quadrature of the ends of shorter steps.
+pub struct Integrals;
+
+/// Integrals that are asked for of each output.
+const WEIGHTS: usize = 4;
+
+/// Points of Gauss's rule: exact for an output of degree 5 under weights of degree 4.
+const POINTS: usize = 5;
+
+/// Share of an output's change over the step by which its integrals may be off.
+const SHARE: f64 = 1e-3;
+
+impl Check for Integrals {
+    fn about(&self) -> About {
+        About {
+            name: "integrals",
+            title: "integrals of outputs are those of the outputs under Legendre's polynomials",
+            equation: "integral i = integral of y L_i ds over 0 <= s <= 1, by Gauss's rule through the ends of shorter steps",
+            tolerance: "1e-3 of the largest change of the output over the step, and 4 times the solver's tolerance",
+            look_at: "the weights L_0 = 1, L_1 = 2s - 1, .., that integrals begin at 0 with every step and are not multiplied by H, and their \
+                      order: number 0 of all outputs first",
+        }
+    }
+
+    fn run(&self, bench: &Bench<'_>, verdict: &mut Verdict) -> Result<(), Stop> {
+        let subject = &bench.subject;
+        if !subject.capabilities.output_integrals {
+            return Err(Stop::not_applicable(
+                "the model offers no integrals of outputs",
+            ));
+        }
+        let (step, count) = (bench.step(), subject.outputs.len());
+        let inputs = bench.loaded(3);
+        let mut instance = bench.in_motion()?;
+        let start = instance.keep()?;
+        let inside = Inside {
+            instants: &[],
+            integrals: WEIGHTS,
+        };
+        // Twice: integrals of the step before must be gone.
+        instance.step_inside(step, &inputs, inside)?;
+        instance.go_back(&start)?;
+        let found = instance.step_inside(step, &inputs, inside)?;
+
+        let mut points = Vec::new();
+        for [share, _] in gauss(POINTS) {
+            instance.go_back(&start)?;
+            points.push(instance.step_part([0.0, share], step, &inputs)?);
+        }
+        let mut comparison = Comparison::default();
+        for (output, name) in subject.outputs.iter().enumerate() {
+            let first = points[0][output];
+            let change = points.iter().fold(0.0_f64, |change, own| {
+                change.max((own[output] - first).abs())
+            });
+            let allowed =
+                SHARE * change + 4.0 * bench.tolerance + rounding(&[first, first + change]);
+            for weight in 0..WEIGHTS {
+                let expected = gauss(POINTS).zip(&points).map(|([share, part], own)| {
+                    let mut values = [0.0; WEIGHTS];
+                    legendre(share, &mut values);
+                    part * values[weight] * own[output]
+                });
+                let place = format!("integral {weight} of {name}");
+                let found = found[count * (1 + weight) + output];
+                comparison.near(place, found, expected.sum(), allowed);
+            }
+        }
+        verdict.judge(
+            comparison,
+            bench.grade_of_motion(),
+            "other values than the quadrature",
+        );
+        Ok(())
+    }
+}
