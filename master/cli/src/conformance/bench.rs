@@ -13,6 +13,7 @@ use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
 use linchpin_proto::version::{PROTOCOL, negotiate};
 
+use super::compare::rounding;
 use super::inputs::{HIGHEST_DEGREE, Inputs};
 use super::instance::Instance;
 use super::peer::Peer;
@@ -28,6 +29,15 @@ const LIVELY: [(Motion, f64); 2] = [(Motion::Translation, 10.0), (Motion::Rotati
 
 /// Shares of the inputs' sizes that are tried, before none, until the model takes the steps of the prelude.
 const SHARES: [f64; 2] = [1.0, 0.1];
+
+/// Relative change of inputs that shows what rounding does to outputs.
+const NUDGE: f64 = 1e-12;
+
+/// Factor between the noise that is seen and the one that is allowed for.
+const NOISE_MARGIN: f64 = 100.0;
+
+/// Share of the largest value of any output above which nothing counts as noise.
+const MOST_NOISE: f64 = 1e-9;
 
 /// First sequence number: any is right, since the master chooses it.
 const FIRST: u64 = 4001;
@@ -53,6 +63,8 @@ pub struct Bench<'p> {
     pub tolerance: f64,
     /// Whether the solver has unilateral contacts: then motions have corners, and accelerations are not linear in the loads.
     pub has_contacts: bool,
+    /// By how much rounding moves each output: see [`Bench::rounding`].
+    noise: Vec<f64>,
     /// Share of the sizes during the prelude.
     share: f64,
     next_number: Cell<u64>,
@@ -79,6 +91,7 @@ impl<'p> Bench<'p> {
             told_tolerance: None,
             tolerance: 0.0,
             has_contacts: false,
+            noise: Vec::new(),
             share: 1.0,
             next_number: Cell::new(RandomState::new().hash_one(PROTOCOL.minor)),
         };
@@ -92,7 +105,42 @@ impl<'p> Bench<'p> {
         (bench.told_tolerance, bench.sizes) = (told, sizes);
         bench.tolerance = told.filter(|told| told.is_finite()).unwrap_or(0.0).max(0.0);
         bench.find_share()?;
+        bench.noise = bench
+            .measure_noise()
+            .map_err(|stop| ConformanceError::useless(&model.name, stop))?;
         Ok(bench)
+    }
+
+    /// The largest differences of outputs between two preludes whose inputs and lengths of steps differ by rounding.
+    fn measure_noise(&self) -> Result<Vec<f64>, Stop> {
+        let mut noise = vec![0.0_f64; self.subject.outputs.len()];
+        let mut largest = 0.0_f64;
+        let [mut own, mut other] = [self.at_start()?, self.at_start()?];
+        for number in 0..PRELUDE {
+            let inputs = self.prelude(number);
+            let found = own.step(self.step(), &inputs)?;
+            let beside = other.step(self.step(), &inputs.scaled(1.0 + NUDGE))?;
+            for ((noise, a), b) in noise.iter_mut().zip(&found).zip(&beside) {
+                *noise = noise.max((a - b).abs());
+                largest = largest.max(a.abs());
+            }
+        }
+        let most = MOST_NOISE * largest;
+        Ok(noise
+            .iter()
+            .map(|own| (NOISE_MARGIN * own).min(most))
+            .collect())
+    }
+
+    /// By how much two computations of an output that has these values may differ by rounding alone. An output that is nothing
+    /// but rounding, as a reaction that is zero, differs by as much as it is large, so this is measured.
+    pub fn rounding(&self, output: usize, values: &[f64]) -> f64 {
+        rounding(values) + self.noise[output]
+    }
+
+    /// What the solver's tolerance and rounding may do to an output.
+    pub fn floor(&self, output: usize, values: &[f64]) -> f64 {
+        4.0 * self.tolerance + self.rounding(output, values)
     }
 
     /// Finds how large the inputs of the prelude may be.

@@ -30,6 +30,15 @@ impl Inputs {
         self
     }
 
+    /// The same, all of them times a factor.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        for power in self.powers.iter_mut().flatten() {
+            *power *= factor;
+        }
+        self
+    }
+
     /// The same with constants behind them.
     #[must_use]
     pub fn and(mut self, values: &[f64]) -> Self {

@@ -4,6 +4,6 @@ mod halves;
 mod limit;
 mod mobility;
 
-pub use halves::{HALVES_SHARE, LONGER, halves, resolves_longer};
+pub use halves::{COARSE_SHARE, HALVES_SHARE, LONGER, halves, resolves_longer};
 pub use limit::{LIMIT_SHARE, allowed, in_the_limit};
 pub use mobility::{Freedom, MOBILITY_SHARE, Mobility};

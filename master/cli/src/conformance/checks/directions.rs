@@ -2,7 +2,7 @@
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::inputs::Inputs;
 use crate::conformance::instance::Instance;
 use crate::conformance::measured::{LIMIT_SHARE, allowed, in_the_limit};
@@ -98,7 +98,7 @@ fn against_quotients(
         let sizes = subject.sizes_of_groups(&largest);
         let mut comparison = Comparison::default();
         for (output, name) in subject.outputs.iter().enumerate() {
-            let floor = (4.0 * bench.tolerance + rounding(&[plus[output], minus[output]])) / change;
+            let floor = bench.floor(output, &[plus[output], minus[output]]) / change;
             if let Some(allowed) = allowed(LIMIT_SHARE, sizes[output], floor) {
                 let name = format!("{name} per {}", subject.inputs[input]);
                 comparison.near(name, row[output], quotients[output], allowed);

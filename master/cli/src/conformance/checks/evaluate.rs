@@ -2,7 +2,7 @@
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::verdict::{Grade, Stop, Verdict};
 
 /// Share of the size of an output by which Evaluate may differ from the Step before: both compute it from the same state.
@@ -33,7 +33,7 @@ impl Check for Evaluate {
         let sizes = bench.subject.sizes_of_groups(&stepped);
         let mut comparison = Comparison::default();
         for (output, name) in names.iter().enumerate() {
-            let allowed = SHARE * sizes[output] + rounding(&sizes[output..=output]);
+            let allowed = SHARE * sizes[output] + bench.rounding(output, &[sizes[output]]);
             comparison.near(name, evaluated[output], stepped[output], allowed);
         }
         verdict.judge(

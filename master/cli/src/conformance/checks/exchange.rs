@@ -6,7 +6,7 @@ use linchpin_proto::version::knows_whole_exchange;
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::inputs::Inputs;
 use crate::conformance::instance::Instance;
 use crate::conformance::verdict::{Grade, Stop, Verdict};
@@ -258,7 +258,7 @@ fn compare(
         let found = instance.checked("Exchange", Some(found.clone()), 1)?;
         let sizes = bench.subject.sizes_of_groups(expected);
         for (place, name) in bench.subject.outputs.iter().enumerate() {
-            let allowed = 4.0 * bench.tolerance + rounding(&[sizes[place]]);
+            let allowed = bench.floor(place, &[sizes[place]]);
             comparison.near(name, found[place], expected[place], allowed);
         }
     }

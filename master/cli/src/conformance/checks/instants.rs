@@ -2,7 +2,7 @@
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::instance::Inside;
 use crate::conformance::verdict::{Stop, Verdict};
 
@@ -69,8 +69,8 @@ impl Check for Instants {
             .chain(SHARES.iter().zip(interior));
         for ((share, expected), found) in lists.zip(cut.chunks(count)) {
             for (output, name) in subject.outputs.iter().enumerate() {
-                let rounding = rounding(&[expected[output], begin[output]]);
-                let allowed = OF_BEND * bend(output) + 4.0 * bench.tolerance + rounding;
+                let floor = bench.floor(output, &[expected[output], begin[output]]);
+                let allowed = OF_BEND * bend(output) + floor;
                 let place = format!("{name} at {share} H");
                 comparison.near(place, found[output], expected[output], allowed);
             }

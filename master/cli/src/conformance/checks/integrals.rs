@@ -5,9 +5,9 @@ use linchpin_proto::weights::legendre;
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::instance::Inside;
-use crate::conformance::verdict::{Stop, Verdict};
+use crate::conformance::verdict::{Grade, Stop, Verdict};
 
 /// Integrals against quadrature of the ends of shorter steps.
 pub struct Integrals;
@@ -21,13 +21,17 @@ const POINTS: usize = 5;
 /// Share of an output's change over the step by which its integrals may be off.
 const SHARE: f64 = 1e-3;
 
+/// A larger share, up to which the weights of a solver with few internal steps are coarse and not wrong: a rule through three
+/// points misses the integral of a straight line under `L_3` by a sixth of its change.
+const COARSE: f64 = 0.25;
+
 impl Check for Integrals {
     fn about(&self) -> About {
         About {
             name: "integrals",
             title: "integrals of outputs are those of the outputs under Legendre's polynomials",
             equation: "integral i = integral of y L_i ds over 0 <= s <= 1, by Gauss's rule through the ends of shorter steps",
-            tolerance: "1e-3 of the largest change of the output over the step, and 4 times the solver's tolerance",
+            tolerance: "1e-3 of the largest change of the output over the step, and 4 times the solver's tolerance; a warning up to 0.25",
             look_at: "the weights L_0 = 1, L_1 = 2s - 1, .., that integrals begin at 0 with every step and are not multiplied by H, and their \
                       order: number 0 of all outputs first",
         }
@@ -58,14 +62,13 @@ impl Check for Integrals {
             instance.go_back(&start)?;
             points.push(instance.step_part([0.0, share], step, &inputs)?);
         }
-        let mut comparison = Comparison::default();
+        let [mut fine, mut coarse] = [(); 2].map(|()| Comparison::default());
         for (output, name) in subject.outputs.iter().enumerate() {
             let first = points[0][output];
             let change = points.iter().fold(0.0_f64, |change, own| {
                 change.max((own[output] - first).abs())
             });
-            let allowed =
-                SHARE * change + 4.0 * bench.tolerance + rounding(&[first, first + change]);
+            let floor = bench.floor(output, &[first, first + change]);
             for weight in 0..WEIGHTS {
                 let expected = gauss(POINTS).zip(&points).map(|([share, part], own)| {
                     let mut values = [0.0; WEIGHTS];
@@ -74,14 +77,19 @@ impl Check for Integrals {
                 });
                 let place = format!("integral {weight} of {name}");
                 let found = found[count * (1 + weight) + output];
-                comparison.near(place, found, expected.sum(), allowed);
+                let expected: f64 = expected.sum();
+                fine.near(&place, found, expected, SHARE * change + floor);
+                coarse.near(place, found, expected, COARSE * change + floor);
             }
         }
-        verdict.judge(
-            comparison,
-            bench.grade_of_motion(),
-            "other values than the quadrature",
-        );
+        match coarse.holds() {
+            true => verdict.judge(
+                fine,
+                Grade::Warn,
+                "not as close to the quadrature as they should be: few internal steps of a solver of low order fall into the macro step",
+            ),
+            false => verdict.judge(coarse, bench.grade_of_motion(), "other values than the quadrature"),
+        }
         Ok(())
     }
 }

@@ -5,7 +5,7 @@ use crate::conformance::bench::Bench;
 use crate::conformance::compare::{Comparison, rounding};
 use crate::conformance::instance::{Instance, Kept};
 use crate::conformance::measured::{
-    Freedom, Mobility, allowed, halves, in_the_limit, resolves_longer,
+    COARSE_SHARE, Freedom, Mobility, allowed, halves, in_the_limit, resolves_longer,
 };
 use crate::conformance::verdict::{Grade, Stop, Verdict};
 
@@ -15,16 +15,14 @@ pub struct LoadShapes;
 /// Share of the response by which it may differ from that of inertia.
 const SHARE: f64 = 0.02;
 
-/// A larger share, within which a response is coarse and not wrong.
-const COARSE: f64 = 0.15;
-
 impl Check for LoadShapes {
     fn about(&self) -> About {
         About {
             name: "load-shapes",
             title: "loads 1, s and s^2 move their marker as inertia does",
             equation: "v: H A (1, 1/2, 1/3), r: H^2 A (1/2, 1/6, 1/12), s = t/H, A = d(acceleration)/d(load)",
-            tolerance: "0.02 of the response, and the solver's tolerance; with H resolved by the solver also less",
+            tolerance: "0.02 of the response, and the solver's tolerance; more where the motion is fast against H and resolved; a warning up to 0.15, \
+                        and where a step and its halves differ less over a step 16 times as long",
             look_at: "whether Step applies the whole load, at every internal step and at its own time; the solver's internal step against H",
         }
     }
@@ -122,7 +120,7 @@ impl Shapes<'_, '_, '_> {
         }
         let ratio = comparison.ratio() * SHARE;
         let from = (&mut *self.instance, &self.start);
-        if ratio <= COARSE || resolves_longer(self.bench, from, step, &inputs, &of_halves) {
+        if ratio <= COARSE_SHARE || resolves_longer(self.bench, from, step, &inputs, &of_halves) {
             let text = format!(
                 "{place} the response is off by {:.0} %: few internal steps of a solver of low order fall into the macro step; methods that \
                  meet position and velocity at its end need longer macro steps or shorter internal ones",

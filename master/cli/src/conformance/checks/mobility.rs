@@ -50,9 +50,7 @@ impl Check for MobilityMatrix {
             .filter(|&freedom| !mobility.is_free(freedom))
             .map(|freedom| mobility.freedoms[freedom].names[1].as_str())
             .collect();
-        if held.len() == mobility.freedoms.len() {
-            verdict.find(Grade::Warn, "no marker accelerates under its own load");
-        } else if !held.is_empty() {
+        if !held.is_empty() {
             let names = held.join(", ");
             verdict.note(format!(
                 "loads under which their marker does not accelerate (held?): {names}"

@@ -2,7 +2,7 @@
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::instance::Inside;
 use crate::conformance::measured::allowed;
 use crate::conformance::verdict::{Grade, Stop, Verdict};
@@ -76,10 +76,11 @@ impl Check for PerturbedSteps {
                 let lists = response.chunks(subject.outputs.len());
                 let sizes = lists.flat_map(|list| subject.sizes_of_groups(list));
                 for (place, size) in sizes.enumerate() {
-                    let floor = 4.0 * bench.tolerance + rounding(&[own[place], base[place]]);
+                    let output = place % subject.outputs.len();
+                    let floor = bench.floor(output, &[own[place], base[place]]);
                     // Where nothing answers the change, the perturbed step must not either.
                     let allowed = allowed(SHARE, size, floor).unwrap_or(SHARE * size + floor);
-                    let name = &subject.outputs[place % subject.outputs.len()];
+                    let name = &subject.outputs[output];
                     let name =
                         format!("{name} with {} changed by s^{power}", subject.inputs[input]);
                     comparison.near(name, row[place], own[place], allowed);

@@ -4,7 +4,7 @@ use linchpin_proto::v1::Signal;
 
 use super::{About, Check};
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::inputs::Inputs;
 use crate::conformance::instance::{Inside, Instance, Kept};
 use crate::conformance::measured::allowed;
@@ -83,7 +83,7 @@ fn compare(
     let sizes = bench.subject.sizes_of_groups(&response);
     let mut comparison = Comparison::default();
     for (output, name) in bench.subject.outputs.iter().enumerate() {
-        let floor = 4.0 * bench.tolerance + rounding(&[found[output], lively[output]]);
+        let floor = bench.floor(output, &[found[output], lively[output]]);
         if let Some(allowed) = allowed(SHARE, sizes[output], floor) {
             comparison.near(name, found[output], expected[output], allowed);
         }

@@ -2,13 +2,16 @@
 
 use super::allowed;
 use crate::conformance::bench::Bench;
-use crate::conformance::compare::{Comparison, rounding};
+use crate::conformance::compare::Comparison;
 use crate::conformance::inputs::Inputs;
 use crate::conformance::instance::{Instance, Kept};
 use crate::conformance::verdict::Stop;
 
 /// Share of the response to the inputs by which a step and its halves may differ.
 pub const HALVES_SHARE: f64 = 0.02;
+
+/// A larger share, up to which a solver of low order with one internal step is coarse and not wrong.
+pub const COARSE_SHARE: f64 = 0.15;
 
 /// How many times longer a step is over which a solver of low order takes enough internal steps.
 pub const LONGER: f64 = 16.0;
@@ -36,7 +39,7 @@ pub fn halves(
     let sizes = bench.subject.sizes_of_groups(&response);
     let mut comparison = Comparison::default();
     for (output, name) in bench.subject.outputs.iter().enumerate() {
-        let floor = 4.0 * bench.tolerance + rounding(&[whole[output], rest[output]]);
+        let floor = bench.floor(output, &[whole[output], rest[output]]);
         if let Some(allowed) = allowed(HALVES_SHARE, sizes[output], floor) {
             comparison.near(name, whole[output], halves[output], allowed);
         }

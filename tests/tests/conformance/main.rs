@@ -1,0 +1,7 @@
+//! The conformance kit: sound workers are not accused, planted faults are found.
+
+#![allow(clippy::unwrap_used)]
+
+mod shipped;
+mod sound;
+mod subjects;
