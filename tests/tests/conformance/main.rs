@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod faults;
+mod planted;
 mod shipped;
 mod sound;
 mod subjects;

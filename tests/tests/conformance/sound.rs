@@ -86,10 +86,6 @@ fn nonsmooth() -> Vec<(&'static str, Json)> {
             "slider-crank",
             json!({"omega1_0": 150.0, "omega2_0": -75.0}),
         ),
-        (
-            "slider-crank",
-            json!({"elements": 4, "omega1_0": 15.0, "omega2_0": -7.5}),
-        ),
         ("mass-chain", json!({})),
         ("bouncing-ball", json!({})),
         ("bouncing-ball", json!({"height0": 0.0, "speed0": -1.0})),
