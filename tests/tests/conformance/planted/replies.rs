@@ -39,7 +39,7 @@ pub fn wrong_step(
                 }
             }
         }
-        Fault::InteriorByOutput => {
+        Fault::InteriorByOutput if !request.instants.is_empty() => {
             let right = values[interior.clone()].to_vec();
             let instants = request.instants.len();
             for (place, own) in values[interior].iter_mut().enumerate() {

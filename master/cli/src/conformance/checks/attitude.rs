@@ -35,7 +35,7 @@ impl Check for Attitude {
         let mut instance = bench.in_motion()?;
         let mut comparison = Comparison::default();
         for number in 0..STEPS {
-            let values = instance.step(bench.step(), &bench.prelude(number))?;
+            let values = instance.step(bench.step(), &bench.at_turn(number))?;
             for marker in markers {
                 if let Some(places) = marker.quaternion() {
                     let length = places

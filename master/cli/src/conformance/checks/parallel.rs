@@ -80,7 +80,7 @@ impl Check for Parallel {
 fn inputs(bench: &Bench<'_>, kind: usize, number: usize) -> Inputs {
     match kind {
         0 => bench.loaded(1),
-        _ => bench.prelude(number),
+        _ => bench.at_turn(number),
     }
 }
 

@@ -106,7 +106,7 @@ fn march(
     let one = |(place, share): (usize, f64)| {
         let inputs = match place {
             0 => bench.loaded(number),
-            later => bench.prelude(number * LENGTHS.len() + later),
+            later => bench.at_turn(number * LENGTHS.len() + later),
         };
         instance.step(share * bench.step(), &inputs)
     };

@@ -35,7 +35,12 @@ pub fn halves(
     instance.step_part([0.0, 0.5], step, inputs)?;
     let halves = instance.step_part([0.5, 1.0], step, inputs)?;
 
-    let response: Vec<f64> = whole.iter().zip(&rest).map(|(a, b)| a - b).collect();
+    let response = |own: usize| {
+        (whole[own] - rest[own])
+            .abs()
+            .max((halves[own] - rest[own]).abs())
+    };
+    let response: Vec<f64> = (0..rest.len()).map(response).collect();
     let sizes = bench.subject.sizes_of_groups(&response);
     let mut comparison = Comparison::default();
     for (output, name) in bench.subject.outputs.iter().enumerate() {

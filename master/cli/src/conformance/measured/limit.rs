@@ -45,3 +45,16 @@ pub fn in_the_limit(
     }
     Ok(closest)
 }
+
+/// The comparison that comes closest over steps of 4 and 16 times `step` (s), for solvers of low order that take enough internal
+/// steps only then. `None` if the model takes no such step, or its values hide in the solver's tolerance.
+pub fn over_longer(
+    step: f64,
+    mut compare: impl FnMut(f64) -> Result<Comparison, Stop>,
+) -> Option<Comparison> {
+    [4.0 * step, 16.0 * step]
+        .into_iter()
+        .filter_map(|longer| compare(longer).ok())
+        .filter(|comparison| comparison.compared > 0)
+        .min_by(|a, b| a.ratio().total_cmp(&b.ratio()))
+}
