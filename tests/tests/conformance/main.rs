@@ -3,7 +3,10 @@
 #![allow(clippy::unwrap_used)]
 
 mod faults;
+mod low_order;
 mod planted;
+mod program;
+mod serve;
 mod shipped;
 mod sound;
 mod subjects;

@@ -85,7 +85,7 @@ pub fn run(
             true => skipped(&*check),
             false => examine(&*check, &bench),
         };
-        is_gone |= report.lost_the_worker && !bench.is_alive();
+        is_gone |= report.lost_the_worker;
         checks.push(report);
     }
     Ok(Report {
@@ -102,7 +102,8 @@ fn examine(check: &dyn Check, bench: &Bench<'_>) -> CheckReport {
     let started = Instant::now();
     let mut verdict = Verdict::default();
     let stop = check.run(bench, &mut verdict).err();
-    let lost_the_worker = stop.as_ref().is_some_and(Stop::is_loss);
+    let is_lost = |stop: &Stop| stop.is_hang() || (stop.is_loss() && !bench.is_alive());
+    let lost_the_worker = stop.as_ref().is_some_and(is_lost);
     if let Some(stop) = stop {
         verdict.stop(stop);
     }

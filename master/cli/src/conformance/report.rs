@@ -33,7 +33,7 @@ pub struct CheckReport {
     pub look_at: &'static str,
     /// How long it took (s).
     pub seconds: f64,
-    /// Whether it ended with a call that had no answer.
+    /// Whether the worker is gone or hangs since.
     #[serde(skip)]
     pub(super) lost_the_worker: bool,
 }

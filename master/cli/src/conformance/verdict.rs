@@ -62,6 +62,11 @@ impl Stop {
         Self::NotApplicable(reason.into())
     }
 
+    /// Whether the worker did not answer in time.
+    pub fn is_hang(&self) -> bool {
+        matches!(self, Self::Call(CallError::Deadline { .. }))
+    }
+
     /// Whether the worker may be gone.
     pub fn is_loss(&self) -> bool {
         match self {
@@ -149,6 +154,10 @@ impl Verdict {
     pub fn stop(&mut self, stop: Stop) {
         let (grade, text) = match stop {
             Stop::NotApplicable(reason) => (Grade::NotApplicable, reason),
+            Stop::Call(error) if error.is_recoverable() => (
+                Grade::Warn,
+                format!("the model asks for a smaller step: {error}"),
+            ),
             Stop::Call(error) => (
                 Grade::Fail,
                 format!("a call that must succeed failed: {error}"),

@@ -154,9 +154,12 @@ impl Contract for Faulty {
     fn describe(&self, request: &v1::DescribeRequest) -> Result<v1::DescribeReply, CallError> {
         let mut reply = self.inner.describe(request)?;
         for model in &mut reply.models {
+            let [first, second, ..] = &mut model.markers[..] else {
+                continue;
+            };
             match self.fault {
-                Fault::LongMarker => model.markers[0].load.push("end_moment".into()),
-                Fault::TwiceTheName => model.markers[1].name = model.markers[0].name.clone(),
+                Fault::LongMarker => first.load.push("end_moment".into()),
+                Fault::TwiceTheName => second.name = first.name.clone(),
                 _ => {}
             }
         }
@@ -245,8 +248,15 @@ impl Contract for Faulty {
             Fault::MixesInstances => {
                 let mut memory = self.memory.lock().unwrap();
                 let first = *memory.first.get_or_insert(request.instance);
-                changed.signals[0].values[0] +=
-                    1e-3 * (request.instance != first) as u8 as f64 * memory.sequences.len() as f64;
+                let others = memory.sequences.len() as f64;
+                if request.instance != first
+                    && let Some(value) = changed
+                        .signals
+                        .first_mut()
+                        .and_then(|own| own.values.first_mut())
+                {
+                    *value += 1e-3 * others;
+                }
             }
             _ => {}
         }

@@ -83,7 +83,7 @@ fn against_quotients(
     mut end: impl FnMut(f64) -> Result<Vec<f64>, Stop>,
 ) -> Result<Comparison, Stop> {
     let subject = &bench.subject;
-    let (_, comparison) = in_the_limit(bench.sizes[input], |change| {
+    let limit = in_the_limit(bench.sizes[input], |change| {
         let (plus, minus) = (end(change)?, end(-change)?);
         let quotients: Vec<f64> = plus
             .iter()
@@ -106,5 +106,5 @@ fn against_quotients(
         }
         Ok(comparison)
     })?;
-    Ok(comparison)
+    Ok(limit.comparison)
 }

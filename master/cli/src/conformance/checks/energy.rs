@@ -76,27 +76,25 @@ fn examine(
         ));
         return Ok(());
     }
-    let (step, comparison) = in_the_limit(bench.step(), |step| work.over(&mut instance, step))?;
+    let limit = in_the_limit(bench.step(), |step| work.over(&mut instance, step))?;
     let mut grade = bench.grade_of_motion();
-    if comparison.compared == 0 {
-        verdict.note(format!(
-            "the work at marker \"{}\" is below the solver's tolerance",
-            marker.name
-        ));
-    } else if !comparison.holds() {
+    if !limit.comparison.holds() {
         let longer = over_longer(bench.step(), |step| work.over(&mut instance, step));
         if longer.is_some_and(|own| own.ratio() * SHARE <= COARSE_SHARE) {
             grade = Grade::Warn;
         }
-    } else if !work.fed.contains(&true) {
+    } else if limit.comparison.compared > 0 && !work.fed.contains(&true) {
         let text = format!(
             "no energy changes under the loads of marker \"{}\", which moves",
             marker.name
         );
         verdict.find(Grade::Warn, text);
     }
-    let text = format!("another change than the work, also over {step:.1e} s");
-    verdict.judge(comparison, grade, text);
+    limit.judge(
+        verdict,
+        grade,
+        "energies change by something else than the work of the loads",
+    );
     Ok(())
 }
 

@@ -10,7 +10,7 @@ use crate::conformance::verdict::{Stop, Verdict};
 pub struct Instants;
 
 /// Where a step is cut, as shares of it.
-const SHARES: [f64; 3] = [0.3, 0.5, 0.7];
+const SHARES: [f64; 3] = [0.2, 0.5, 0.7];
 
 /// Share of the distance between the motion and a straight line by which interior outputs may be off: interpolation shows.
 const OF_BEND: f64 = 0.1;

@@ -9,7 +9,7 @@ use crate::conformance::bench::Bench;
 use crate::conformance::compare::{Comparison, rounding};
 use crate::conformance::inputs::Inputs;
 use crate::conformance::instance::Instance;
-use crate::conformance::measured::{LIMIT_SHARE, MOBILITY_SHARE, allowed, in_the_limit};
+use crate::conformance::measured::{LIMIT_SHARE, Limit, MOBILITY_SHARE, allowed, in_the_limit};
 use crate::conformance::subject::Marker;
 use crate::conformance::verdict::{Stop, Verdict};
 
@@ -106,10 +106,9 @@ fn examine(
     let text = format!("other accelerations of marker \"{name}\" at end {end:?}");
     verdict.judge(found, bench.grade_of_motion(), text);
     let cases = [&by_joint, &by_inputs, &rest];
-    let (step, found) = velocities(bench, marker, &mut instance, cases)?;
-    let text =
-        format!("other velocities of marker \"{name}\" at end {end:?}, also after {step:.1e} s");
-    verdict.judge(found, bench.grade_of_motion(), text);
+    let limit = velocities(bench, marker, &mut instance, cases)?;
+    let text = format!("other velocities of marker \"{name}\" at end {end:?}");
+    limit.judge(verdict, bench.grade_of_motion(), &text);
     Ok(())
 }
 
@@ -138,7 +137,7 @@ fn velocities(
     marker: &Marker,
     instance: &mut Instance<'_>,
     cases: [&Inputs; 3],
-) -> Result<(f64, Comparison), Stop> {
+) -> Result<Limit, Stop> {
     let start = instance.keep()?;
     in_the_limit(bench.step(), |step| {
         let mut ends = Vec::new();

@@ -1,7 +1,7 @@
 //! Relations that hold in the limit of short steps.
 
 use crate::conformance::compare::Comparison;
-use crate::conformance::verdict::Stop;
+use crate::conformance::verdict::{Grade, Stop, Verdict};
 
 /// Share of the size of a quantity by which a relation that holds in the limit may be missed at the step where it is missed
 /// least.
@@ -12,6 +12,9 @@ pub const LIMIT_SHARE: f64 = 1e-3;
 const SHORTER: f64 = 0.25;
 const ATTEMPTS: i32 = 9;
 
+/// Factor by which a difference falls from one attempt to the next, at least, where it goes to zero.
+const FALLS: f64 = 0.5;
+
 /// Largest share of a quantity's size that tolerance and rounding may have; above it nothing can be told.
 const HIDDEN: f64 = 0.1;
 
@@ -21,29 +24,66 @@ pub fn allowed(share: f64, size: f64, floor: f64) -> Option<f64> {
     (size > 0.0 && floor <= HIDDEN * size).then(|| share * size + floor)
 }
 
-/// Shortens the step from `step` (s) until the comparison over it holds. Otherwise the one that comes closest, and the step
-/// (s) that it belongs to. A step that is so short that values hide in rounding is not looked at.
+/// What a relation comes to where steps become short.
+#[derive(Debug, Clone)]
+pub struct Limit {
+    /// The step (s), or whatever else was made small, at which the comparison comes closest.
+    pub step: f64,
+    /// The comparison there.
+    pub comparison: Comparison,
+    /// Whether it still came closer when shorter steps hid it in tolerance and rounding.
+    pub is_hidden: bool,
+}
+
+impl Limit {
+    /// Takes note of it; if it does not hold, that is a finding of this grade, unless it cannot be told.
+    pub fn judge(self, verdict: &mut Verdict, grade: Grade, text: &str) {
+        if self.comparison.compared == 0 {
+            verdict.note(format!(
+                "{text}: cannot be told, the solver's tolerance is larger than what changes"
+            ));
+        } else if self.is_hidden {
+            verdict.note(format!("{text}: cannot be told, the solver's tolerance hides what steps that are shorter do"));
+        } else {
+            let text = format!("{text}, also over {:.1e} s", self.step);
+            verdict.judge(self.comparison, grade, text);
+        }
+    }
+}
+
+/// Shortens the step from `step` (s) until the comparison over it holds; otherwise the one that comes closest. A step that is so short
+/// that values hide in tolerance or rounding is not looked at.
 pub fn in_the_limit(
     step: f64,
     mut compare: impl FnMut(f64) -> Result<Comparison, Stop>,
-) -> Result<(f64, Comparison), Stop> {
+) -> Result<Limit, Stop> {
     let first = compare(step)?;
     let values = first.compared;
-    let mut closest = (step, first);
+    let mut last = first.ratio();
+    let mut limit = Limit {
+        step,
+        comparison: first,
+        is_hidden: false,
+    };
+    let mut falls = false;
     for attempt in 1..ATTEMPTS {
-        if closest.1.holds() {
+        if limit.comparison.holds() {
             break;
         }
         let shorter = step * SHORTER.powi(attempt);
         let comparison = compare(shorter)?;
         if comparison.compared < values {
+            limit.is_hidden = falls;
             break;
         }
-        if comparison.ratio() < closest.1.ratio() {
-            closest = (shorter, comparison);
+        let ratio = comparison.ratio();
+        falls = ratio <= FALLS * last;
+        last = ratio;
+        if ratio < limit.comparison.ratio() {
+            (limit.step, limit.comparison) = (shorter, comparison);
         }
     }
-    Ok(closest)
+    Ok(limit)
 }
 
 /// The comparison that comes closest over steps of 4 and 16 times `step` (s), for solvers of low order that take enough internal
