@@ -4,22 +4,27 @@
 //! rates. So the kit first drives every instance over [`PRELUDE`] macro steps with inputs that go up and down, each as large
 //! as it takes to move a marker about as much as gravity does.
 
+mod describe;
+mod sizes;
+
 use std::cell::Cell;
 use std::f64::consts::TAU;
 use std::hash::{BuildHasher, RandomState};
 
 use linchpin_master::connection::Connection;
-use linchpin_proto::contract::CallError;
+use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1;
-use linchpin_proto::version::{PROTOCOL, negotiate};
+use linchpin_proto::version::PROTOCOL;
 
 use super::compare::rounding;
 use super::inputs::{HIGHEST_DEGREE, Inputs};
 use super::instance::Instance;
 use super::peer::Peer;
-use super::subject::{Motion, Subject};
+use super::subject::Subject;
 use super::verdict::{Grade, Stop};
 use super::{ConformanceError, Settings};
+use describe::describe;
+use sizes::sizes;
 
 /// Macro steps before a check begins.
 pub const PRELUDE: usize = 100;
@@ -27,9 +32,6 @@ pub const PRELUDE: usize = 100;
 /// The macro step from which on the inputs of the prelude stay: solvers that carry accelerations along from step to step, as
 /// those of the generalised-alpha family, have forgotten how they changed when a check begins.
 const SETTLED: usize = 80;
-
-/// Accelerations that inputs are to cause where the model has no larger ones: m/s^2 and rad/s^2.
-const LIVELY: [(Motion, f64); 2] = [(Motion::Translation, 10.0), (Motion::Rotation, 30.0)];
 
 /// Shares of the inputs' sizes that are tried, before none, until the model takes the steps of the prelude.
 const SHARES: [f64; 2] = [1.0, 0.1];
@@ -275,7 +277,7 @@ impl<'p> Bench<'p> {
     }
 
     /// The connection that instances are called over.
-    pub fn calls(&self) -> &dyn linchpin_proto::contract::Contract {
+    pub fn calls(&self) -> &dyn Contract {
         self.connection.contract()
     }
 
@@ -296,91 +298,4 @@ impl<'p> Bench<'p> {
             false => Grade::Fail,
         }
     }
-}
-
-fn describe(
-    connection: &dyn Connection,
-    settings: &Settings,
-) -> Result<(v1::DescribeReply, v1::Model), ConformanceError> {
-    let ask = |model: Option<String>| {
-        let request = v1::DescribeRequest {
-            protocol: Some(PROTOCOL),
-            parameters: match &model {
-                Some(_) => settings.parameters.clone(),
-                None => Default::default(),
-            },
-            model,
-        };
-        let reply = connection.contract().describe(&request);
-        reply.map_err(ConformanceError::Describe)
-    };
-    let all = ask(None)?;
-    negotiate(all.protocol.as_ref())?;
-    let names: Vec<&str> = all.models.iter().map(|model| &*model.name).collect();
-    let name = match (&settings.model, &names[..]) {
-        (_, []) => return Err(ConformanceError::NoModel),
-        (Some(name), _) => name.clone(),
-        (None, [only]) => (*only).to_owned(),
-        (None, _) => {
-            return Err(ConformanceError::WhichModel {
-                known: names.join(", "),
-            });
-        }
-    };
-    let known = names.join(", ");
-    if !names.contains(&name.as_str()) {
-        return Err(ConformanceError::UnknownModel { name, known });
-    }
-    let mut reply = ask(Some(name.clone()))?;
-    match reply.models.iter().position(|model| model.name == name) {
-        Some(place) => {
-            let model = reply.models.swap_remove(place);
-            Ok((reply, model))
-        }
-        None => Err(ConformanceError::UnknownModel { name, known }),
-    }
-}
-
-/// For each input the change that makes no acceleration of a marker change by more than the largest acceleration of its kind,
-/// or [`LIVELY`]; 1 where no acceleration answers.
-fn sizes(instance: &Instance<'_>) -> Vec<f64> {
-    let subject = instance.subject;
-    let unit = vec![1.0; subject.inputs.len()];
-    let Ok(rest) = instance.evaluate(&subject.defaults) else {
-        return unit;
-    };
-    let accelerations: Vec<(usize, Motion)> = subject
-        .markers
-        .iter()
-        .flat_map(|marker| {
-            let places = marker.acceleration.iter().enumerate();
-            places.map(|(component, &output)| (output, marker.motion(component)))
-        })
-        .collect();
-    let largest = |of: Motion, least: f64| {
-        let own = accelerations.iter().filter(|(_, motion)| *motion == of);
-        own.fold(least, |largest, (output, _)| {
-            largest.max(rest[*output].abs())
-        })
-    };
-    let scales = LIVELY.map(|(motion, least)| (motion, largest(motion, least)));
-    let scale = |motion| {
-        let own = scales.iter().find(|(of, _)| *of == motion);
-        own.map_or(1.0, |(_, scale)| *scale)
-    };
-    let size = |input: usize| {
-        let mut values = subject.defaults.clone();
-        values[input] += 1.0;
-        let changed = instance.evaluate(&values).ok()?;
-        accelerations
-            .iter()
-            .filter_map(|&(output, motion)| {
-                let change = (changed[output] - rest[output]).abs();
-                (change > 1e-9 * rest[output].abs()).then(|| scale(motion) / change)
-            })
-            .min_by(f64::total_cmp)
-    };
-    (0..subject.inputs.len())
-        .map(|input| size(input).unwrap_or(1.0))
-        .collect()
 }
