@@ -14,6 +14,7 @@ pub mod in_space;
 pub mod masses;
 pub mod position_pair;
 pub mod process;
+pub mod python;
 pub mod random_pairs;
 pub mod reference;
 pub mod runs;

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
@@ -13,6 +13,7 @@ use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, value::Kind};
 use linchpin_proto::version::PROTOCOL;
 use linchpin_tests::process::Workshop;
+use linchpin_tests::python::python;
 
 const REPOSITORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
 
@@ -33,22 +34,6 @@ const SETTINGS: [&str; 8] = [
 /// rounding reaches it divided by H^2, and comes back to velocities times H. Measured: x 1e-15, v 7e-14, lambda 1.1e-11.
 const LARGEST_DIFFERENCE: f64 = 1e-12;
 const LARGEST_DIFFERENCE_OF_LOADS: f64 = 1e-10;
-
-/// The interpreter and where the stubs are; both are made on the first call.
-fn python() -> (PathBuf, PathBuf) {
-    let setup = Path::new(REPOSITORY).join("tests/python/setup.sh");
-    let done = Command::new("bash").arg(&setup).output().unwrap();
-    assert!(
-        done.status.success(),
-        "{}",
-        String::from_utf8_lossy(&done.stderr)
-    );
-    let folder = Path::new(REPOSITORY)
-        .join("target/python")
-        .canonicalize()
-        .unwrap();
-    (folder.join("venv/bin/python"), folder.join("stubs"))
-}
 
 fn scene(second: &str) -> String {
     format!(

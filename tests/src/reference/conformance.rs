@@ -33,7 +33,9 @@ fn capitalised(text: &str) -> String {
 fn wrapped(text: &str) -> String {
     let mut lines = vec![String::new()];
     for word in text.split_whitespace() {
-        let full = lines.last().is_some_and(|line| line.len() + word.len() >= super::WIDTH);
+        let full = lines
+            .last()
+            .is_some_and(|line| line.len() + word.len() >= super::WIDTH);
         if full {
             lines.push(format!("  {word}"));
         } else if let Some(line) = lines.last_mut() {

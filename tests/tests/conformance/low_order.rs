@@ -50,7 +50,6 @@ impl Model for Masses {
             velocity: vec![format!("v{n}")],
             acceleration: vec![format!("a{n}")],
             load: vec![format!("f{n}")],
-            ..v1::Marker::default()
         };
         let units = ["m", "m/s", "m/s^2"];
         let outputs = [1, 2].into_iter().flat_map(|n| {

@@ -183,3 +183,36 @@ fn what_cannot_be_examined_is_told() {
     let outcome = workshop.run(&["conformance"]);
     outcome.exits_with(2);
 }
+
+#[test]
+fn the_worker_in_python_is_not_accused() {
+    let workshop = Workshop::new();
+    let (python, stubs) = linchpin_tests::python::python();
+    let (python, stubs) = (
+        python.display().to_string(),
+        format!("PYTHONPATH={}", stubs.display()),
+    );
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/python/oscillator_worker.py");
+    let outcome = workshop.run(&[
+        "conformance",
+        "-p",
+        "m=2",
+        "-p",
+        "c=1000",
+        "-p",
+        "d=10",
+        "-p",
+        "v0=1",
+        "--",
+        "env",
+        &stubs,
+        &python,
+        script,
+    ]);
+    outcome.exits_with(0);
+    assert!(
+        outcome.stdout.contains("0 with a warning, 0 failed"),
+        "{}",
+        outcome.stdout
+    );
+}

@@ -109,11 +109,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         }),
         steps: arguments.steps.clone(),
     };
-    let limit = Duration::from_secs_f64(arguments.timeout);
-    let report = match &arguments.address {
-        Some(address) => examine(&AtAddress::new(address.clone(), limit)?, &settings),
-        None => examine(&Started::new(&arguments.command, limit)?, &settings),
-    }?;
+    let report = examine(arguments, &settings).map_err(Box::new)?;
     match arguments.json {
         true => print(report.to_json().map_err(std::io::Error::from)? + "\n")?,
         false => print(&report)?,
@@ -130,7 +126,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     }
 }
 
-fn examine(peer: &dyn Peer, settings: &Settings) -> Result<Report, ConformanceError> {
+fn examine(arguments: &Arguments, settings: &Settings) -> Result<Report, ConformanceError> {
+    let limit = Duration::from_secs_f64(arguments.timeout);
+    match &arguments.address {
+        Some(address) => under_a_bar(&AtAddress::new(address.clone(), limit)?, settings),
+        None => under_a_bar(&Started::new(&arguments.command, limit)?, settings),
+    }
+}
+
+fn under_a_bar(peer: &dyn Peer, settings: &Settings) -> Result<Report, ConformanceError> {
     let bar = progress::bar(
         all().len() as u64,
         "{bar:40} {pos}/{len} checks  {msg}",

@@ -155,7 +155,7 @@ pub enum CommandError {
     },
     /// A worker cannot be examined.
     #[error("no report on the worker: {0}")]
-    Conformance(#[from] ConformanceError),
+    Conformance(#[from] Box<ConformanceError>),
     /// A worker is not what it should be; the report is out.
     #[error("{failed} of {checks} checks failed; docs/guide/conformance.md explains each")]
     NotConformant {
@@ -181,12 +181,6 @@ pub enum CommandError {
     /// The system gave no runtime.
     #[error("cannot start: {0}")]
     System(#[from] std::io::Error),
-}
-
-impl From<StartError> for CommandError {
-    fn from(error: StartError) -> Self {
-        ConformanceError::from(error).into()
-    }
 }
 
 impl CommandError {

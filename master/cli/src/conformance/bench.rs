@@ -101,9 +101,9 @@ impl<'p> Bench<'p> {
             share: 1.0,
             next_number: Cell::new(RandomState::new().hash_one(PROTOCOL.minor)),
         };
-        let failed = |source| ConformanceError::Initialize {
+        let failed = |error| ConformanceError::Initialize {
             model: model.name.clone(),
-            source,
+            source: Box::new(error),
         };
         let (instance, reply) = bench.initialize(&bench.request()).map_err(failed)?;
         let (told, sizes) = (reply.tolerance, sizes(&instance));

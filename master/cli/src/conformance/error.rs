@@ -11,13 +11,13 @@ use super::verdict::Stop;
 pub enum ConformanceError {
     /// The worker is not there.
     #[error(transparent)]
-    Start(#[from] StartError),
+    Start(Box<StartError>),
     /// It speaks another protocol.
     #[error(transparent)]
     Incompatible(#[from] Incompatible),
     /// It does not describe itself.
     #[error("the worker does not answer Describe: {0}")]
-    Describe(CallError),
+    Describe(Box<CallError>),
     /// It has no model.
     #[error("the worker describes no model; Describe must name at least one")]
     NoModel,
@@ -55,7 +55,7 @@ pub enum ConformanceError {
         /// The model.
         model: String,
         /// Why.
-        source: CallError,
+        source: Box<CallError>,
     },
     /// It steps in no way.
     #[error("the model \"{model}\" takes no steps from its start, even without loads: {source}")]
@@ -63,7 +63,7 @@ pub enum ConformanceError {
         /// The model.
         model: String,
         /// Why.
-        source: CallError,
+        source: Box<CallError>,
     },
     /// Its answers have no use.
     #[error("the model \"{model}\" gives useless answers at its start: {reason}")]
@@ -75,13 +75,22 @@ pub enum ConformanceError {
     },
 }
 
+impl From<StartError> for ConformanceError {
+    fn from(error: StartError) -> Self {
+        Self::Start(Box::new(error))
+    }
+}
+
 impl ConformanceError {
     /// That `model` is of no use without any load.
     pub(super) fn useless(model: &str, stop: Stop) -> Self {
         let model = model.to_owned();
         match stop {
-            Stop::Call(source) => Self::Steps { model, source },
-            Stop::Connection(error) => error.into(),
+            Stop::Call(error) => Self::Steps {
+                model,
+                source: Box::new(error),
+            },
+            Stop::Connection(error) => Self::Start(error),
             Stop::Answer(reason) | Stop::NotApplicable(reason) => Self::Answers { model, reason },
         }
     }

@@ -72,7 +72,7 @@ impl<'a> Instance<'a> {
     }
 
     /// The next sequence number.
-    pub fn next(&mut self) -> u64 {
+    pub fn next_number(&mut self) -> u64 {
         self.sequence += 1;
         self.sequence
     }
@@ -86,7 +86,7 @@ impl<'a> Instance<'a> {
     ) -> v1::StepRequest {
         v1::StepRequest {
             instance: self.number,
-            sequence: self.next(),
+            sequence: self.next_number(),
             t: self.t,
             step,
             signals,
@@ -174,7 +174,7 @@ impl<'a> Instance<'a> {
     ) -> v1::PerturbedStepRequest {
         v1::PerturbedStepRequest {
             instance: self.number,
-            sequence: self.next(),
+            sequence: self.next_number(),
             t: self.t,
             step,
             signals: inputs.signals(step),
@@ -229,7 +229,7 @@ impl<'a> Instance<'a> {
     pub fn keep_instead(&mut self, replaced: Option<Kept>) -> Result<Kept, Stop> {
         let request = v1::SnapshotRequest {
             instance: self.number,
-            sequence: self.next(),
+            sequence: self.next_number(),
             replaces: replaced.map(|kept| kept.snapshot),
         };
         let snapshot = self.calls.snapshot(&request)?.snapshot;
@@ -243,7 +243,7 @@ impl<'a> Instance<'a> {
     pub fn go_back(&mut self, kept: &Kept) -> Result<(), Stop> {
         let request = v1::RestoreRequest {
             instance: self.number,
-            sequence: self.next(),
+            sequence: self.next_number(),
             snapshot: kept.snapshot,
         };
         self.calls.restore(&request)?;

@@ -53,7 +53,7 @@ pub enum Stop {
     /// An answer has the wrong number of values, or one that is not finite.
     Answer(String),
     /// A further connection could not be made.
-    Connection(StartError),
+    Connection(Box<StartError>),
 }
 
 impl Stop {
@@ -92,7 +92,7 @@ impl From<CallError> for Stop {
 
 impl From<StartError> for Stop {
     fn from(error: StartError) -> Self {
-        Self::Connection(error)
+        Self::Connection(Box::new(error))
     }
 }
 

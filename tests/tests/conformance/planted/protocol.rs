@@ -113,7 +113,7 @@ impl Faulty {
         next
     }
 
-    fn wrong_signals(&self, signals: &mut Vec<v1::Signal>, step: f64) {
+    fn wrong_signals(&self, signals: &mut [v1::Signal], step: f64) {
         for signal in signals.iter_mut() {
             match self.fault {
                 Fault::TakesNaN => signal

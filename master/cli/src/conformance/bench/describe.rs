@@ -24,7 +24,7 @@ pub fn describe(
             model,
         };
         let reply = connection.contract().describe(&request);
-        reply.map_err(ConformanceError::Describe)
+        reply.map_err(|error| ConformanceError::Describe(Box::new(error)))
     };
     let all = ask(None)?;
     negotiate(all.protocol.as_ref())?;

@@ -65,7 +65,7 @@ impl Check for Exchange {
 
         if is_whole {
             let again = ExchangeRequest {
-                sequence: instance.next(),
+                sequence: instance.next_number(),
                 go_back: true,
                 ..request.clone()
             };
@@ -159,7 +159,7 @@ fn request(bench: &Bench<'_>, instance: &mut Instance<'_>, is_whole: bool) -> Ex
     };
     ExchangeRequest {
         instance: instance.number,
-        sequence: instance.next(),
+        sequence: instance.next_number(),
         advance: Some(Advance {
             t,
             step,

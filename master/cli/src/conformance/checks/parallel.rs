@@ -28,42 +28,11 @@ impl Check for Parallel {
     }
 
     fn run(&self, bench: &Bench<'_>, verdict: &mut Verdict) -> Result<(), Stop> {
-        let names = &bench.subject.outputs;
-        let mut alone = Vec::new();
-        for kind in 0..2 {
-            let mut instance = bench.in_motion()?;
-            let steps =
-                (0..STEPS).map(|number| instance.step(bench.step(), &inputs(bench, kind, number)));
-            alone.push(steps.collect::<Result<Vec<_>, _>>()?);
-        }
-
-        let mut pair = [bench.in_motion()?, bench.in_motion()?];
-        let mut comparison = Comparison::default();
-        for number in 0..STEPS {
-            for (kind, instance) in pair.iter_mut().enumerate() {
-                let found = instance.step(bench.step(), &inputs(bench, kind, number))?;
-                comparison.same(names, &found, &alone[kind][number]);
-            }
-        }
+        let alone = each_alone(bench)?;
         let text = "two instances that take turns move otherwise than each alone";
-        verdict.judge(comparison, Grade::Fail, text);
-        let [first, mut second] = pair;
-        let kept = second.keep()?;
-        let expected = second.step(bench.step(), &bench.loaded(0))?;
-        drop(first);
-        second.go_back(&kept)?;
-        let mut comparison = Comparison::default();
-        comparison.same(
-            names,
-            &second.step(bench.step(), &bench.loaded(0))?,
-            &expected,
-        );
-        verdict.judge(
-            comparison,
-            Grade::Fail,
-            "the end of one instance changes another one",
-        );
-
+        verdict.judge(taking_turns(bench, &alone)?, Grade::Fail, text);
+        let text = "the end of one instance changes another one";
+        verdict.judge(beside_an_end(bench)?, Grade::Fail, text);
         if !bench.subject.capabilities.exchange {
             verdict.note("without streams: the model serves no exchange");
             return Ok(());
@@ -76,6 +45,47 @@ impl Check for Parallel {
     }
 }
 
+/// Outputs after each step, of one instance and of the other.
+type Ends = Vec<[Vec<f64>; 2]>;
+
+/// Both instances one after the other.
+fn each_alone(bench: &Bench<'_>) -> Result<Ends, Stop> {
+    let mut ends = vec![[Vec::new(), Vec::new()]; STEPS];
+    for kind in 0..2 {
+        let mut instance = bench.in_motion()?;
+        for (number, pair) in ends.iter_mut().enumerate() {
+            pair[kind] = instance.step(bench.step(), &inputs(bench, kind, number))?;
+        }
+    }
+    Ok(ends)
+}
+
+/// Both instances side by side.
+fn taking_turns(bench: &Bench<'_>, alone: &Ends) -> Result<Comparison, Stop> {
+    let mut pair = [bench.in_motion()?, bench.in_motion()?];
+    let mut comparison = Comparison::default();
+    for (number, ends) in alone.iter().enumerate() {
+        for (kind, (instance, expected)) in pair.iter_mut().zip(ends).enumerate() {
+            let found = instance.step(bench.step(), &inputs(bench, kind, number))?;
+            comparison.same(&bench.subject.outputs, &found, expected);
+        }
+    }
+    Ok(comparison)
+}
+
+/// One instance before and after another one ends.
+fn beside_an_end(bench: &Bench<'_>) -> Result<Comparison, Stop> {
+    let (other, mut instance) = (bench.in_motion()?, bench.in_motion()?);
+    let kept = instance.keep()?;
+    let expected = instance.step(bench.step(), &bench.loaded(0))?;
+    drop(other);
+    instance.go_back(&kept)?;
+    let found = instance.step(bench.step(), &bench.loaded(0))?;
+    let mut comparison = Comparison::default();
+    comparison.same(&bench.subject.outputs, &found, &expected);
+    Ok(comparison)
+}
+
 /// Inputs of a step, which tell the instances apart.
 fn inputs(bench: &Bench<'_>, kind: usize, number: usize) -> Inputs {
     match kind {
@@ -84,43 +94,31 @@ fn inputs(bench: &Bench<'_>, kind: usize, number: usize) -> Inputs {
     }
 }
 
-fn on_one_stream(bench: &Bench<'_>, alone: &[Vec<Vec<f64>>]) -> Result<Comparison, Stop> {
+fn on_one_stream(bench: &Bench<'_>, alone: &Ends) -> Result<Comparison, Stop> {
     let mut pair = [bench.in_motion()?, bench.in_motion()?];
     let mut stream = bench.connect()?;
     let mut comparison = Comparison::default();
-    for number in 0..STEPS {
-        for (kind, instance) in pair.iter_mut().enumerate() {
+    for (number, ends) in alone.iter().enumerate() {
+        for (kind, (instance, expected)) in pair.iter_mut().zip(ends).enumerate() {
             let reply = turn(&mut *stream, &advance(bench, instance, kind, number))?;
-            compare(
-                bench,
-                instance,
-                reply,
-                &alone[kind][number],
-                &mut comparison,
-            )?;
+            compare(bench, instance, reply, expected, &mut comparison)?;
         }
     }
     Ok(comparison)
 }
 
-fn on_two_streams(bench: &Bench<'_>, alone: &[Vec<Vec<f64>>]) -> Result<Comparison, Stop> {
+fn on_two_streams(bench: &Bench<'_>, alone: &Ends) -> Result<Comparison, Stop> {
     let mut pair = [bench.in_motion()?, bench.in_motion()?];
     let mut streams = [bench.connect()?, bench.connect()?];
     let mut comparison = Comparison::default();
-    for number in 0..STEPS {
+    for (number, ends) in alone.iter().enumerate() {
         for (kind, (instance, stream)) in pair.iter_mut().zip(&mut streams).enumerate() {
             stream.post(&advance(bench, instance, kind, number))?;
         }
-        for (kind, (instance, stream)) in pair.iter().zip(&mut streams).enumerate() {
+        for ((instance, stream), expected) in pair.iter().zip(&mut streams).zip(ends) {
             let mut reply = ExchangeReply::default();
             stream.collect(&mut reply)?;
-            compare(
-                bench,
-                instance,
-                reply,
-                &alone[kind][number],
-                &mut comparison,
-            )?;
+            compare(bench, instance, reply, expected, &mut comparison)?;
         }
     }
     Ok(comparison)
@@ -137,7 +135,7 @@ fn advance(
     instance.t += step;
     ExchangeRequest {
         instance: instance.number,
-        sequence: instance.next(),
+        sequence: instance.next_number(),
         advance: Some(Advance {
             t,
             step,

@@ -9,7 +9,7 @@ use super::{About, Check};
 use crate::conformance::bench::Bench;
 use crate::conformance::compare::Comparison;
 use crate::conformance::verdict::{Grade, Stop, Verdict};
-use wrong::{wrong_instances, wrong_requests};
+use wrong::{at_no_time, wrong_instances, wrong_requests};
 
 /// Wrong names, lengths, numbers and degrees.
 pub struct Refusals;
@@ -28,8 +28,11 @@ impl Check for Refusals {
     fn run(&self, bench: &Bench<'_>, verdict: &mut Verdict) -> Result<(), Stop> {
         for (what, request) in wrong_instances(bench) {
             let answer = bench.initialize(&request).map(|_| ());
-            weigh(what, answer, verdict)?;
+            weigh(what, answer, Grade::Fail, verdict)?;
         }
+        let at_no_time = bench.initialize(&at_no_time(bench)).map(|_| ());
+        // Harmless where the model does not depend on time.
+        weigh("Initialize at t = NaN", at_no_time, Grade::Warn, verdict)?;
         let names = &bench.subject.outputs;
         let step = bench.step();
         let inputs = bench.loaded(1);
@@ -41,7 +44,7 @@ impl Check for Refusals {
         for (what, call) in wrong_requests(bench) {
             let answer = call(&mut instance);
             let is_refused = answer.is_err();
-            weigh(what, answer, verdict)?;
+            weigh(what, answer, Grade::Fail, verdict)?;
             if !is_refused {
                 // Whatever it did, the next one starts from the same state.
                 instance.go_back(&start)?;
@@ -62,10 +65,15 @@ impl Check for Refusals {
     }
 }
 
-/// What an answer to a wrong request is worth.
-fn weigh(what: &str, answer: Result<(), CallError>, verdict: &mut Verdict) -> Result<(), Stop> {
+/// What an answer to a wrong request is worth; `accepted` if it is no refusal.
+fn weigh(
+    what: &str,
+    answer: Result<(), CallError>,
+    accepted: Grade,
+    verdict: &mut Verdict,
+) -> Result<(), Stop> {
     match answer {
-        Ok(()) => verdict.find(Grade::Fail, format!("{what}: accepted")),
+        Ok(()) => verdict.find(accepted, format!("{what}: accepted")),
         Err(CallError::Failed(failure)) => {
             if failure.severity() != Severity::Misuse {
                 let severity = failure.severity().as_str_name();

@@ -102,7 +102,7 @@ impl Repeats {
 fn snapshots(instance: &mut Instance<'_>, verdict: &mut Verdict) -> Result<(), Stop> {
     let request = v1::SnapshotRequest {
         instance: instance.number,
-        sequence: instance.next(),
+        sequence: instance.next_number(),
         replaces: None,
     };
     let kept = instance.calls.snapshot(&request)?.snapshot;
@@ -111,7 +111,7 @@ fn snapshots(instance: &mut Instance<'_>, verdict: &mut Verdict) -> Result<(), S
     }
     let request = v1::RestoreRequest {
         instance: instance.number,
-        sequence: instance.next(),
+        sequence: instance.next_number(),
         snapshot: kept,
     };
     instance.calls.restore(&request)?;

@@ -21,7 +21,7 @@ const HIDDEN: f64 = 0.1;
 /// By how much a value may be off that has this size, where `floor` is what the solver's tolerance and rounding may do; `None`
 /// if they hide the value.
 pub fn allowed(share: f64, size: f64, floor: f64) -> Option<f64> {
-    (size > 0.0 && floor <= HIDDEN * size).then(|| share * size + floor)
+    (size > 0.0 && floor <= HIDDEN * size).then_some(share * size + floor)
 }
 
 /// What a relation comes to where steps become short.

@@ -35,14 +35,15 @@ pub fn wrong_instances(bench: &Bench<'_>) -> Vec<(&'static str, v1::InitializeRe
         ("Initialize with an unknown parameter", with_parameter),
         ("Initialize with an unknown input", with_input),
         ("Initialize with an unknown output", with_output),
-        (
-            "Initialize at t = NaN",
-            v1::InitializeRequest {
-                t_start: f64::NAN,
-                ..base()
-            },
-        ),
     ]
+}
+
+/// A request for an instance that begins at no time.
+pub fn at_no_time(bench: &Bench<'_>) -> v1::InitializeRequest {
+    v1::InitializeRequest {
+        t_start: f64::NAN,
+        ..bench.request()
+    }
 }
 
 type Call<'b> = Box<dyn Fn(&mut Instance<'_>) -> Result<(), CallError> + 'b>;
@@ -76,7 +77,7 @@ pub fn wrong_requests<'b>(bench: &'b Bench<'_>) -> Vec<(&'static str, Call<'b>)>
         Box::new(|instance| {
             let request = v1::RestoreRequest {
                 instance: instance.number,
-                sequence: instance.next(),
+                sequence: instance.next_number(),
                 snapshot: u64::MAX,
             };
             instance.calls.restore(&request).map(|_| ())
