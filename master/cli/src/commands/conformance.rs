@@ -20,14 +20,14 @@ use crate::progress;
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   linchpin conformance http://127.0.0.1:50051 --model arm --step 1e-3 --step 5e-3
-  linchpin conformance --parameter m=2 --parameter c=1000 -- python3 oscillator_worker.py
-  linchpin conformance --model planar-body --parameter m=2 --parameter inertia=0.3 --parameter length=1 \\
-    --parameter angle0=0.7 -- linchpin worker
+  linchpin conformance -p m=2 -p c=1000 -- python3 oscillator_worker.py
+  linchpin conformance --model planar-body -p m=2 -p inertia=0.3 -p length=1 -p angle0=0.7 \\
+    -- linchpin worker
   linchpin conformance unix:/run/linchpin/arm.sock --json --junit conformance.xml
 
-The command is started with --listen ADDRESS at its end, or with the address in the place of {address}, and ended afterwards.
-Every check is explained in docs/guide/conformance.md. Start from a state that hides nothing: turned bodies, points away from
-centres of mass, unequal inertias.
+The command is started with --listen ADDRESS at its end, or with the address in the place of {address}, and ended afterwards. Start \
+from a state that hides nothing: turned bodies, points away from centres of mass, unequal inertias. \
+docs/guide/conformance.md explains every check.
 
 Exit code 0: no check failed (warnings may have been printed); 1: at least one did, or the worker could not be examined.")]
 pub struct Arguments {
