@@ -6,8 +6,8 @@ use crate::conformance::subject::Motion;
 /// Accelerations that inputs are to cause where the model has no larger ones: m/s^2 and rad/s^2.
 const LIVELY: [(Motion, f64); 2] = [(Motion::Translation, 10.0), (Motion::Rotation, 30.0)];
 
-/// Share of an acceleration below which its change under a load is rounding.
-const NOTHING: f64 = 1e-9;
+/// Share of an acceleration below which its change under a load of 1 is rounding: a body that a contact holds does not answer.
+const NOTHING: f64 = 1e-12;
 
 /// For each input the change that makes no acceleration of a marker change by more than the largest acceleration of its kind,
 /// or [`LIVELY`]; 1 where no acceleration answers.
@@ -44,7 +44,7 @@ pub fn sizes(instance: &Instance<'_>) -> Vec<f64> {
             .iter()
             .filter_map(|&(output, motion)| {
                 let change = (changed[output] - rest[output]).abs();
-                (change > NOTHING * rest[output].abs()).then(|| scale(motion) / change)
+                (change > NOTHING * scale(motion)).then(|| scale(motion) / change)
             })
             .min_by(f64::total_cmp)
     };
