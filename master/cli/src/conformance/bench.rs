@@ -34,7 +34,7 @@ pub const PRELUDE: usize = 100;
 const SETTLED: usize = 80;
 
 /// Shares of the inputs' sizes that are tried, before none, until the model takes the steps of the prelude.
-const SHARES: [f64; 2] = [1.0, 0.1];
+const SHARES: [f64; 3] = [1.0, 0.1, 0.01];
 
 /// Relative change of inputs that shows what rounding does to outputs.
 const NUDGE: f64 = 1e-12;
@@ -71,7 +71,7 @@ pub struct Bench<'p> {
     pub has_contacts: bool,
     /// By how much rounding moves each output: see [`Bench::rounding`].
     noise: Vec<f64>,
-    /// Share of the sizes during the prelude.
+    /// Share of the sizes during the prelude: 1, or 0 if the model takes its steps without loads only.
     share: f64,
     next_number: Cell<u64>,
 }
@@ -151,8 +151,9 @@ impl<'p> Bench<'p> {
 
     /// Finds how large the inputs of the prelude may be.
     fn find_share(&mut self) -> Result<(), ConformanceError> {
+        let sizes = self.sizes.clone();
         for share in SHARES {
-            self.share = share;
+            self.sizes = sizes.iter().map(|size| share * size).collect();
             if self.notice_contacts().is_ok() {
                 return Ok(());
             }
