@@ -10,7 +10,7 @@ use linchpin_master::system::solve::LinearSolver;
 use linchpin_models::reference::LinkMotion;
 use linchpin_tests::chain::{reference, scene_text};
 use linchpin_tests::hinges;
-use linchpin_tests::runs::{Trajectory, run, try_run};
+use linchpin_tests::runs::{Trajectory, run};
 use linchpin_tests::scenes::with_settings;
 
 const TIGHT: &str = "subsystem.*.solver={ kind = \"radau5\", rtol = 1e-11, atol = 1e-11 }";
