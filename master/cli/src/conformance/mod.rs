@@ -9,7 +9,7 @@
 //! * [`subject`]: the model as it describes itself;
 //! * [`instance`]: one instance with its sequence of calls;
 //! * [`inputs`]: input polynomials in the share of a step;
-//! * [`bench`]: what every check starts from: instances that are in motion;
+//! * [`mod@bench`]: what every check starts from: instances that are in motion;
 //! * [`measured`]: what several checks measure;
 //! * [`compare`]: comparisons with what is allowed;
 //! * [`verdict`]: what a check found;
