@@ -98,6 +98,11 @@ pub trait Parameters {
         None
     }
 
+    /// Lets the polynomials of [`Parameters::own_curves`], if their degree follows the estimates, end one degree lower; whether that is possible.
+    fn lower_degree(&mut self) -> bool {
+        false
+    }
+
     /// What it wants to know of the inside of a step, if anything; `has_signals` if signals are connected.
     fn inside(&self, _has_signals: bool) -> Option<WantedInside> {
         None

@@ -85,6 +85,13 @@ macro_rules! registry {
                 }
             }
 
+            /// Lets a degree that follows the estimates end one lower; whether that is possible.
+            pub(crate) fn lower_degree(&mut self) -> bool {
+                match self {
+                    $($($(#[cfg($own)])? Self::$name(own) => own.lower_degree(),)*)*
+                }
+            }
+
             /// What follows from its parameters.
             pub fn parameters(&self) -> &dyn Parameters {
                 match self {

@@ -5,8 +5,11 @@ use std::cmp::Reverse;
 use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1;
 
+use super::discover::refuse_marker;
 use crate::error::RunError;
-use crate::layout::{DrivenInput, Layout, LoadForm, Source};
+use crate::layout::{
+    Coupled, DrivenInput, Layout, LoadForm, MarkedConnection, MarkedJoint, Source,
+};
 use crate::methods::OwnCurves;
 use crate::results::StepDegrees;
 use crate::scene::{self, Degree, Jacobian, Loads, Scene};
@@ -60,6 +63,80 @@ pub(super) fn load_forms(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Load
         }
     };
     scene.subsystems.iter().zip(models).map(form).collect()
+}
+
+/// The scene with an automatic degree of the method's own curves that ends where some worker takes no more: inputs of a higher degree, or to be
+/// looked at inside a step. Where not even the lowest is taken it stays, to be refused.
+pub(super) fn fit(
+    scene: &Scene,
+    models: &[v1::Model],
+    joints: &[MarkedJoint],
+    connections: &[MarkedConnection],
+) -> Scene {
+    let mut fitting = scene.clone();
+    while !is_taken(&fitting, models, joints, connections) {
+        if !fitting.coupling.method.lower_degree() {
+            return scene.clone();
+        }
+        let own = fitting.coupling.method.parameters().own_curves();
+        if let Some(own) = own.filter(|own| !own.follow) {
+            fitting.coupling.degree = Degree::Fixed(own.multipliers);
+        }
+    }
+    let degrees = [scene, &fitting].map(|scene| {
+        let own = scene.coupling.method.parameters().own_curves();
+        own.map(|own| own.multipliers)
+    });
+    if let [Some(highest), Some(fitting)] = degrees
+        && fitting < highest
+    {
+        let because = "a worker takes no more";
+        tracing::info!(
+            degree = fitting,
+            instead_of = highest,
+            because,
+            "highest degree"
+        );
+    }
+    fitting
+}
+
+fn is_taken(
+    scene: &Scene,
+    models: &[v1::Model],
+    joints: &[MarkedJoint],
+    connections: &[MarkedConnection],
+) -> bool {
+    let Ok(forms) = load_forms(scene, models) else {
+        return false;
+    };
+    let subsystems = scene.subsystems.iter();
+    let coupled = Coupled {
+        subsystems: subsystems.map(|own| own.name.as_str()).collect(),
+        forms,
+        joints,
+        connections,
+    };
+    let Ok(mut layout) = layout_of(scene, &coupled) else {
+        return false;
+    };
+    let looked = super::inside::look(scene, models, &mut layout);
+    looked.is_ok() && check_degrees(scene, models, &layout).is_ok()
+}
+
+/// Where the joints and connections of a scene stand in the subsystems, and what its method reads.
+pub(super) fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
+    let method = scene.coupling.method.parameters();
+    let layout = match method.own_curves() {
+        Some(_) => Layout::with_rates(coupled, method.level()),
+        None => Layout::new(coupled, method.level()),
+    };
+    let mut layout = layout.map_err(|lacks| refuse_marker(scene, lacks))?;
+    let coupling = &scene.coupling;
+    if coupling.method.corrects() && coupling.jacobian == Jacobian::Reuse {
+        layout.add_frames(coupled);
+    }
+    Ok(layout)
 }
 
 /// Refuses polynomials of a degree that a worker cannot take; the highest degrees that all workers take, where they follow the estimates.

@@ -2,10 +2,8 @@
 
 use linchpin_proto::v1;
 
-use super::degrees::{check_degrees, load_forms};
-use super::discover::{
-    connect_signals, mark, model_of, record_markers, recorded_outputs, refuse_marker,
-};
+use super::degrees::{check_degrees, fit, layout_of, load_forms};
+use super::discover::{connect_signals, mark, model_of, record_markers, recorded_outputs};
 use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
@@ -38,6 +36,7 @@ impl CoSimulation {
         let models = models_of(scene, &subsystems)?;
         let joints = mark(scene, &models)?;
         let connections = connect_signals(scene, &models)?;
+        let scene = &fit(scene, &models, &joints, &connections);
         let coupled = Coupled {
             subsystems: names(scene),
             forms: load_forms(scene, &models)?,
@@ -251,20 +250,6 @@ fn names(scene: &Scene) -> Vec<&str> {
     subsystems
         .map(|subsystem| subsystem.name.as_str())
         .collect()
-}
-
-fn layout_of(scene: &Scene, coupled: &Coupled<'_>) -> Result<Layout, RunError> {
-    let method = scene.coupling.method.parameters();
-    let layout = match method.own_curves() {
-        Some(_) => Layout::with_rates(coupled, method.level()),
-        None => Layout::new(coupled, method.level()),
-    };
-    let mut layout = layout.map_err(|lacks| refuse_marker(scene, lacks))?;
-    let coupling = &scene.coupling;
-    if coupling.method.corrects() && coupling.jacobian == scene::Jacobian::Reuse {
-        layout.add_frames(coupled);
-    }
-    Ok(layout)
 }
 
 fn initial_state(

@@ -102,6 +102,45 @@ fn an_automatic_degree_stays_below_that_of_the_worker() {
     }
 }
 
+/// Hermite coupling with a tolerance would take degrees up to 5; of a worker that takes none above 3 it asks no more, and of one that takes
+/// 2 no look inside the step either.
+#[test]
+fn an_automatic_degree_of_hermite_coupling_stays_below_that_of_the_worker() {
+    let automatic = "method = \"hermite\"\ntolerance = 1e-5\ndegree = \"automatic\" # ";
+    let workshop = workshop(&[
+        ("method = ", "# method = "),
+        ("index = 2", "# index = 2"),
+        ("beta = 2e-3", "# beta = 2e-3"),
+        ("macro_step = 1e-3", "# macro_step = 1e-3"),
+        ("degree = 0", automatic),
+    ]);
+    for highest in [2, 3, 4] {
+        let peer = Peer::scripted(&workshop, |peer| peer.taking_degree(highest));
+        let setting = format!("subsystem.mass2.address={}", peer.address());
+        let outcome = workshop.run(&run(&["--set", &setting]));
+        outcome.succeeds();
+        let columns = workshop.read("out/results.csv");
+        let mut columns = columns.lines().next().unwrap().split(',');
+        let degree = columns.position(|name| name == "degree");
+        let most = degree.map(|place| {
+            let degrees = rows(&workshop).into_iter().map(|row| row[place]);
+            degrees.fold(0.0, f64::max)
+        });
+        assert!(
+            most.is_none_or(|most| most <= f64::from(highest)),
+            "{highest}: {most:?}"
+        );
+        assert!(
+            highest == 2 || most.is_some_and(|most| most > 2.0),
+            "{highest}: {most:?}"
+        );
+    }
+    let peer = Peer::scripted(&workshop, |peer| peer.taking_degree(1));
+    let setting = format!("subsystem.mass2.address={}", peer.address());
+    let outcome = workshop.run(&run(&["--set", &setting]));
+    outcome.fails(2, &["coupling.degree", "\"mass2\"", "degree 1 at most"]);
+}
+
 #[test]
 fn a_number_that_is_none() {
     for value in [f64::NAN, f64::INFINITY] {

@@ -152,6 +152,15 @@ impl Parameters for Hermite {
         })
     }
 
+    fn lower_degree(&mut self) -> bool {
+        if !self.degree_follows || self.degree == LEAST_DEGREE {
+            return false;
+        }
+        self.degree -= 1;
+        self.degree_follows = self.degree > LEAST_DEGREE;
+        true
+    }
+
     fn own_curves(&self) -> Option<OwnCurves> {
         Some(OwnCurves {
             multipliers: self.degree,
