@@ -14,7 +14,8 @@ OSCILLATOR = SCENES / "oscillator.toml"
 LONG = {"scene.t_end": 1e4}
 # Index 2 with degree 2 diverges.
 DIVERGES = {"coupling.degree": 2}
-WARNS = {"coupling.method": "hermite", "coupling.macro_step": 0.2}
+# A fifth of a period of the masses and more.
+WARNS = {"coupling.macro_step": 0.05}
 
 
 @contextlib.contextmanager

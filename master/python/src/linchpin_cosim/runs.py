@@ -107,8 +107,8 @@ def read_run(folder: Path, is_kept: bool) -> Run | None:
 def _results(file: Path, info: Mapping[str, Any]) -> pd.DataFrame:
     units = {column["name"]: column["unit"] for column in info["columns"]}
     if file.is_file() and file.stat().st_size > 0:
-        # The shortest texts that read back to the same bits are read to these.
-        table = pd.read_csv(file, float_precision="round_trip")
+        # Not by the fast conversion of pandas, which may miss the last bit.
+        table = pd.read_csv(file, dtype=str).astype(float)
     else:
         table = pd.DataFrame({name: pd.Series(dtype=float) for name in units or ("t",)})
     table = table.set_index("t")

@@ -41,10 +41,11 @@ def sweep(
 ) -> pd.DataFrame:
     """Runs a scene for every combination of the settings, as `{"coupling.macro_step": [2e-3, 1e-3]}`; a row for each.
 
-    The columns are the settings, `case` for a scene with cases, `status` (done, failed, interrupted, refused where a
-    setting is wrong, or missing for a case behind one that failed), the `message` of a run that is not done, the number of its `warnings`, and the figures. A figure is a
-    function of the `Run`, or a place in run.json such as "statistics.integrations"; None, and of runs that are not done, is
-    missing. At most `processes` runs are under way at a time, by default one for each core.
+    The columns are the settings, `case` for a scene with cases, `status`, the `message` of a run that is not done, the number
+    of its `warnings`, and the figures. The status is done, failed, interrupted, refused where a setting is wrong, or missing
+    for a case behind one that failed. A figure is a function of the `Run`, or a place in run.json such as
+    "statistics.integrations"; runs that are not done have none. At most `processes` runs are under way at a time, by default
+    one for each core.
 
     Raises `SceneError` if every combination is refused.
     """
@@ -87,7 +88,9 @@ def sweep(
     table: list[dict[str, Any]] = []
     for values, answer in zip(combinations, answers, strict=True):
         if isinstance(answer, SceneError):
-            table.append({**dict(zip(keys, values, strict=True)), "status": "refused", "message": str(answer).partition("\n")[0]})
+            table.append(
+                {**dict(zip(keys, values, strict=True)), "status": "refused", "message": str(answer).partition("\n")[0]}
+            )
         else:
             table += answer
     has_cases = any("case" in row for row in table)
