@@ -11,7 +11,6 @@ from unittest import mock
 
 import matplotlib
 import nbformat
-from jupyter_client import AsyncKernelManager
 from nbclient import NotebookClient
 from scenes import PACKAGE, PROGRAM, REPOSITORY, SCENES
 
@@ -64,9 +63,7 @@ class Pages(unittest.TestCase):
             nbformat.validate(notebook)
             self.assertFalse(any(cell.get("outputs") for cell in notebook.cells), f"{file.name}: clear its outputs")
             resources = {"metadata": {"path": str(self.folder)}}
-            # By files in a folder of the user, not over the network.
-            kernel = AsyncKernelManager(kernel_name="python3", transport="ipc")
-            done = NotebookClient(notebook, km=kernel, timeout=300, resources=resources).execute()
+            done = NotebookClient(notebook, timeout=300, kernel_name="python3", resources=resources).execute()
             kinds = [kind for cell in done.cells for output in cell.get("outputs", ()) for kind in output.get("data", ())]
             self.assertIn("image/png", kinds)
             self.assertIn("text/html", kinds)
