@@ -14,6 +14,10 @@ MARKERS = [spatial_marker("start"), spatial_marker("end")]
 INERTIA = [Parameter("m", "kg", above=0.0), *(Parameter(f"j{axis}", "kg m^2", above=0.0) for axis in (1, 2, 3))]
 STARTS = ("x0", "y0", "z0", "vx0", "vy0", "vz0", "omega1_0", "omega2_0", "omega3_0")
 POINTS = [f"{marker.name}_{axis}" for marker in MARKERS for axis in "xyz"]
+SEEN = [
+    getattr(exu.OutputVariableType, name)
+    for name in ("Position", "RotationMatrix", "Velocity", "AngularVelocity", "Acceleration", "AngularAcceleration")
+]
 OPTIONS = [Parameter("dt", "s", default=1e-3, above=0.0, description="longest internal step")]
 
 
@@ -59,8 +63,11 @@ class Body(Subsystem):
         for place, point in enumerate(self.points):
             marker = self.system.AddMarker(MarkerBodyRigid(bodyNumber=self.body, localPosition=point))
             for load, first in ((Force, 6 * place), (Torque, 6 * place + 3)):
-                read = lambda _, t, __, first=first: self.loads(t)[first : first + 3]
-                self.system.AddLoad(load(markerNumber=marker, loadVectorUserFunction=read))
+                self.system.AddLoad(load(markerNumber=marker, loadVectorUserFunction=self.reader(first)))
+
+    def reader(self, first):
+        """What Exudyn calls at every stage: three of the loads at the time `t`."""
+        return lambda system, t, vector: self.loads(t)[first : first + 3]
 
     def solve(self, start, end, steps, loads, is_kept):
         """Runs Exudyn over a time under `loads`, a function of the time."""
@@ -81,11 +88,8 @@ class Body(Subsystem):
         self.solve(t, t, 1, lambda _: u, is_kept=False)
         told = []
         for point in self.points:
-            of = lambda name, point=point: np.ravel(
-                self.system.GetObjectOutputBody(self.body, getattr(exu.OutputVariableType, name), point)
-            )
-            told += [*of("Position"), *quaternion_of_matrix(of("RotationMatrix").reshape(3, 3))]
-            told += [*of("Velocity"), *of("AngularVelocity"), *of("Acceleration"), *of("AngularAcceleration")]
+            position, rotation, *rates = (self.system.GetObjectOutputBody(self.body, kind, point) for kind in SEEN)
+            told += [*position, *quaternion_of_matrix(np.reshape(rotation, (3, 3))), *np.ravel(rates)]
         return told
 
     def save(self):

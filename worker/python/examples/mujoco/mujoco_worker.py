@@ -14,6 +14,8 @@ import numpy as np
 
 from linchpin_worker import Description, Parameter, Subsystem, Variable, quaternion_of_matrix, serve, spatial_marker
 
+NO_PASSIVE_FORCES = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+
 STATE = mujoco.mjtState.mjSTATE_INTEGRATION
 """All that decides about a step; the start values of the constraint solver, which are those of the last step, included."""
 
@@ -39,6 +41,8 @@ class Mechanism(Subsystem):
         # Values that are not finite shall fail the step, not set the model back to its start.
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
         self.dt = self.model.opt.timestep
+        has_gravity = not self.model.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_GRAVITY
+        self.gravity = has_gravity * self.model.opt.gravity
         self.is_staged = self.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4
         self.sites, self.joints = sites(self.model), joints(self.model)
         self.data, self.seen = mujoco.MjData(self.model), mujoco.MjData(self.model)
@@ -67,8 +71,8 @@ class Mechanism(Subsystem):
         for tau, h, _ in u.stages(self.dt, nodes=()):
             self.model.opt.timestep, self.data.time = h, t + tau
             # An integrator without stages takes one load for its step: that of the middle.
-            loads = (lambda time: u(time - t)) if self.is_staged else (lambda _, middle=u(tau + h / 2): middle)
-            self.under(loads, mujoco.mj_step, self.data)
+            later = 0.0 if self.is_staged else h / 2
+            self.under(lambda time, later=later: u(time - t + later), mujoco.mj_step, self.data)
             self.internal_steps += 1
 
     def outputs(self, t, u):
@@ -83,7 +87,7 @@ class Mechanism(Subsystem):
             mujoco.mj_objectAcceleration(model, seen, mujoco.mjtObj.mjOBJ_SITE, site.id, acceleration, 0)
             # MuJoCo has rotations first, and gives the acceleration that a sensor feels.
             told += [*seen.site_xpos[site.id], *quaternion_of_matrix(seen.site_xmat[site.id].reshape(3, 3))]
-            told += [*velocity[3:], *velocity[:3], *(acceleration[3:] + model.opt.gravity), *acceleration[:3]]
+            told += [*velocity[3:], *velocity[:3], *(acceleration[3:] + self.gravity), *acceleration[:3]]
         for joint in self.joints:
             told += [seen.qpos[joint.qposadr[0]], seen.qvel[joint.dofadr[0]]]
         return told
@@ -110,7 +114,15 @@ def joints(model):
 
 def mechanism(file):
     """The class of the model in a file."""
-    model = mujoco.MjModel.from_xml_path(file)
+    try:
+        model = mujoco.MjModel.from_xml_path(file)
+    except ValueError as error:
+        sys.exit(f"error: {file}: {error}")
+    if model.opt.disableflags & NO_PASSIVE_FORCES == NO_PASSIVE_FORCES:
+        sys.exit(
+            f"error: {file}: spring and damper are both disabled, so MuJoCo skips the callback that applies the loads; enable "
+            "one of them and set stiffness and damping to 0"
+        )
     markers = [spatial_marker(site.name or f"site{site.id}") for site in sites(model)]
     outputs, parameters = [], []
     for joint in joints(model):
