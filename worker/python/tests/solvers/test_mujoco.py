@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 
 from solvers import EXAMPLES, assert_rates, example, inputs, made, needed
 
@@ -88,6 +89,21 @@ class Model(unittest.TestCase):
                 for step, row in zip(range(20, 30), expected, strict=True):
                     other.advance(0.02 * step, 0.02, load)
                     self.assertEqual(other.outputs(0.02 * (step + 1), load.at_end), row)
+
+    def test_instances_on_threads_have_their_own_loads(self):
+        model = self.model(self.file(ROUGH.format(integrator="RK4")))
+
+        def end(force):
+            body = made(model)
+            for step in range(50):
+                body.advance(0.02 * step, 0.02, inputs(model, 0.02, top_fy=(force, -force)))
+            return body.outputs(1.0, inputs(model, 0.02, top_fy=(force, force)).at_end)
+
+        forces = [0.0, 1.0, 2.0, 3.0]
+        with ThreadPoolExecutor(len(forces)) as pool:
+            together = list(pool.map(end, forces))
+        self.assertEqual(together, [end(force) for force in forces])
+        self.assertNotEqual(together[0], together[1])
 
     def test_without_loads_it_is_mujoco(self):
         import mujoco
