@@ -7,6 +7,7 @@
 //!
 //! * `advance`: the exchange;
 //! * `correcting`: prediction, look-ahead and correction, and what they teach;
+//! * `foreseeing`: how far the step goes, which its error is compared with;
 //! * `jacobian`: conditions and the workers' responses, linearised;
 //! * `error`: the error of a step, and with it the degrees of the next one;
 //! * `unresolved`: signals that the step does not resolve;
@@ -16,6 +17,7 @@
 mod advance;
 mod correcting;
 mod error;
+mod foreseeing;
 mod jacobian;
 mod rejection;
 mod run;

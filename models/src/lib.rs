@@ -3,6 +3,7 @@
 //! * [`oscillator`]: one mass on a spring and a damper;
 //! * [`pendulum`], [`planar_body`]: rigid links in the plane, on a hinge and free;
 //! * [`spatial_body`]: a free rigid body in space;
+//! * [`ground`]: what does not move;
 //! * [`dc_motor`], [`pi_controller`]: an electric drive, by signals and by its shaft;
 //! * [`multibody`]: systems of bodies with joints of their own, as a scene composes them;
 //! * [`nonsmooth`]: impacts and friction, rigid and flexible;
@@ -12,6 +13,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod dc_motor;
+pub mod ground;
 pub mod integrators;
 mod mechanics;
 pub mod multibody;
@@ -39,6 +41,7 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(spatial_body::SpatialBody),
         Box::new(multibody::PlanarMultibody),
         Box::new(multibody::SpatialMultibody),
+        Box::new(ground::Ground),
         Box::new(dc_motor::DcMotor),
         Box::new(pi_controller::PiController),
         Box::new(nonsmooth::SLIDER_CRANK),

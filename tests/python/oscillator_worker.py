@@ -44,6 +44,7 @@ class Oscillator:
     """One instance of the model with its snapshots and its last answer. SI units."""
 
     def __init__(self, request):
+        require(math.isfinite(request.t_start), f"t_start = {request.t_start}: it must be finite")
         given = {name: one.number if one.HasField("number") else math.nan for name, one in request.parameters.items()}
         numbers = {"m": math.nan, "c": math.nan, "d": math.nan, "x0": 0.0, "v0": 0.0, **given}
         self.m, self.c, self.d, x, v, *unknown = numbers.values()

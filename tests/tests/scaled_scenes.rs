@@ -216,7 +216,7 @@ fn joints() -> [CompositeJoint; 2] {
 }
 
 fn in_space(joint: &CompositeJoint, method: &str) -> Scene {
-    let text = Pair::turning(joint.clone(), 1.0).scene_text(0.25);
+    let text = Pair::turning(*joint, 1.0).scene_text(0.25);
     let rk4 = "subsystem.*.solver={ kind = 'rk4', step = 1e-3 }";
     with_settings(&text, &method.replace('@', "6e-3"), &[rk4])
 }

@@ -3,7 +3,8 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    CommandError, check, converge, describe, instances, report, run, spectrum, stability, worker,
+    CommandError, check, conformance, converge, describe, instances, report, run, spectrum,
+    stability, worker,
 };
 use crate::log::Filter;
 
@@ -45,6 +46,7 @@ enum Command {
     Worker(worker::Arguments),
     Describe(describe::Arguments),
     Instances(instances::Arguments),
+    Conformance(conformance::Arguments),
     Converge(converge::Arguments),
     Stability(stability::Arguments),
     Report(report::Arguments),
@@ -65,6 +67,7 @@ impl Arguments {
             Command::Worker(arguments) => worker::execute(arguments),
             Command::Describe(arguments) => describe::execute(arguments),
             Command::Instances(arguments) => instances::execute(arguments),
+            Command::Conformance(arguments) => conformance::execute(arguments),
             Command::Converge(arguments) => converge::execute(arguments),
             Command::Stability(arguments) => stability::execute(arguments),
             Command::Report(arguments) => report::execute(arguments),

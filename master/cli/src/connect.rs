@@ -10,6 +10,7 @@ use linchpin_master::connection::{
     connect, new_runtime, start,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
+use linchpin_models::ground::GROUND;
 use linchpin_models::models;
 use linchpin_worker::Host;
 use tokio::runtime::Runtime;
@@ -61,7 +62,7 @@ impl Connector {
         subsystem: &Subsystem,
     ) -> Result<Box<dyn Connection>, StartError> {
         match &subsystem.served {
-            Served::BuiltIn if self.place != Place::Processes => {
+            Served::BuiltIn if self.place != Place::Processes || is_ground(subsystem) => {
                 Ok(self.in_this_process(subsystem))
             }
             Served::BuiltIn => {
@@ -118,6 +119,11 @@ impl Connector {
     fn launcher(&self) -> Result<&Launcher, StartError> {
         made(&self.launcher, || Ok(Launcher::new()?))
     }
+}
+
+/// Whether it needs no process: nothing is computed.
+fn is_ground(subsystem: &Subsystem) -> bool {
+    subsystem.model.as_deref() == Some(GROUND)
 }
 
 /// What is made at its first use.

@@ -1,6 +1,7 @@
 //! The command line tool `linchpin`: runs scenes, studies them, serves the built-in models.
 //!
 //! * [`command_line`]: the arguments of the program;
+//! * [`conformance`]: whether a worker does what the contract and mechanics ask of it;
 //! * [`connect`]: workers of a scene, in processes of their own or in this one;
 //! * [`simulate`]: one run;
 //! * [`closed_form`]: the exact solution of scenes that have one;
@@ -20,6 +21,7 @@ pub mod animation;
 pub mod closed_form;
 pub mod command_line;
 pub mod commands;
+pub mod conformance;
 pub mod connect;
 pub mod diagnostics;
 pub mod error_norm;

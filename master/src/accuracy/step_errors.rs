@@ -99,13 +99,11 @@ impl StepErrors {
         self.bearable.lever().is_none()
     }
 
-    /// Takes the largest effect of a unit force on lengths, and of a unit moment on angles: with `H^2/m` and `H^2/J` the root of their ratio is
-    /// a radius of gyration. Lengths are at least what turning makes of it.
-    pub fn take_lever(&mut self, [length, angle]: [f64; 2]) {
-        self.bearable.set_lever(match angle > 0.0 {
-            true => (length / angle).sqrt(),
-            false => 0.0,
-        });
+    /// Takes the lever: from the largest effect of a unit force on lengths, and of a unit moment on angles, with `H^2/m` and `H^2/J` the root of
+    /// their ratio is a radius of gyration; without moments the arm by which forces turn bodies. Lengths are at least what turning
+    /// makes of it.
+    pub fn take_lever(&mut self, lever: f64) {
+        self.bearable.set_lever(lever);
     }
 
     /// Takes by how much the multipliers alone move a position over the step: motion that is tiny beside that is rounding.

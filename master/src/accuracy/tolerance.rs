@@ -132,6 +132,14 @@ impl Tolerance {
                 }
             }
         }
+        // A body on a pin moves although the pin does not.
+        if let Some([_, angle]) = sizes.filter(|_| is_of_motion) {
+            for frame in &layout.frames {
+                for &place in &frame.attitude {
+                    tolerance.watch(frame.subsystem, place, angle);
+                }
+            }
+        }
         for exchanged in &layout.exchanged {
             if let What::Output(place) = exchanged.what {
                 let own = tolerance.add_size(f64::INFINITY, absolute[1]);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
-use crate::accuracy::{Attempts, Change, Difference, PositionErrors, StepErrors, Tolerance};
+use crate::accuracy::{Attempts, Change, Difference, PositionErrors, Tolerance};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::Corrected;
@@ -253,38 +253,6 @@ impl Correcting<'_> {
         iteration.begin(change, self.own.continues, !self.method.has_past());
     }
 
-    /// Tells how far the motion is foreseen to go, and what the multipliers alone make of it.
-    pub fn foresee(&mut self, errors: &mut StepErrors) {
-        errors.foresee(&self.workers.looked(Ahead::Step));
-        if errors.needs_lever() {
-            let are_lengths: Vec<bool> = self.layout.are_lengths().collect();
-            let mut largest = [0.0_f64; 2];
-            for (is_length, largest) in [true, false].into_iter().zip(&mut largest) {
-                let unit = |row: usize| f64::from(u8::from(are_lengths[row] == is_length));
-                visit_effects(
-                    self.own,
-                    self.layout,
-                    unit,
-                    &mut |_, moves_length, effect| {
-                        if moves_length == is_length {
-                            *largest = largest.max(effect.abs());
-                        }
-                    },
-                );
-            }
-            errors.take_lever(largest);
-        }
-        let ends: &[f64] = self.method.ends();
-        visit_effects(
-            self.own,
-            self.layout,
-            |row| ends[row],
-            &mut |place, _, effect| {
-                errors.take_effect(place, effect);
-            },
-        );
-    }
-
     /// Size of the last correction; what follows from it is compared with the `tolerance` by methods whose error is known so precisely.
     pub fn size_of_change(&mut self, step: MacroStep, tolerance: &Tolerance) -> Change {
         let now = self.workers.now();
@@ -393,24 +361,6 @@ impl Correcting<'_> {
             by_first: deferred.learn(remaining, size),
         }
     }
-}
-
-/// Visits the positions at all joints, subsystem and output, whether they are lengths, and by how much multipliers of these values, constant
-/// over the step, move them.
-fn visit_effects(
-    own: &mut Corrector,
-    layout: &Layout,
-    value: impl Fn(usize) -> f64,
-    visit: &mut dyn FnMut([usize; 2], bool, f64),
-) {
-    let unknowns = own.end.system.unknowns();
-    own.errors.fill(0.0);
-    for row in 0..layout.rows.len() {
-        own.errors[unknowns.of(row)].fill(value(row));
-    }
-    let end = (&own.end.system, own.end.columns.all());
-    own.position_errors
-        .visit_effects(layout, end, &own.errors, visit);
 }
 
 /// Largest absolute change of the unknowns of every variable.

@@ -43,6 +43,16 @@ impl<'w> Registry<'w> {
         registry
     }
 
+    /// Adds a name that no table gives, behind the others, unless it is taken.
+    pub(crate) fn imply(&mut self, name: &'static str) -> bool {
+        if self.position(name).is_some() {
+            return false;
+        }
+        self.positions.insert(name, self.fields.len());
+        self.fields.push(None);
+        true
+    }
+
     fn owner_of(&self, name: &str) -> Option<(&'static str, &Field<'w>)> {
         let position = self.position(name)?;
         Some((self.owner, self.fields.get(position)?.as_ref()?))

@@ -338,7 +338,7 @@ impl<'w> Section<'w> {
     }
 
     /// A value whatever it may be.
-    pub(super) fn find(&self, key: &str) -> Option<Field<'w>> {
+    pub(crate) fn find(&self, key: &str) -> Option<Field<'w>> {
         self.table.get(key).map(|entry| self.field(key, entry))
     }
 

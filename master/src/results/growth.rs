@@ -12,6 +12,9 @@ const FIRST_STEPS: usize = 10;
 /// values are rounding.
 const BEGINS: f64 = 1e3;
 
+/// Number of steps for which a motion from rest is young.
+const YOUNG: usize = 50;
+
 /// Growth in one step of a motion that goes on.
 const CALM: f64 = 10.0;
 
@@ -26,6 +29,8 @@ pub struct Growth {
     largest: f64,
     /// Whether the last step has hardly changed that.
     is_calm: bool,
+    /// Whether the motion began at rest.
+    began_at_rest: bool,
     /// Steps since the motion began.
     steps: usize,
     /// The next number of steps after which the size is taken down.
@@ -35,16 +40,30 @@ pub struct Growth {
 }
 
 impl Growth {
+    /// From the largest value at the start.
+    pub fn from(largest: f64) -> Self {
+        let mut own = Self::default();
+        own.take(largest);
+        own
+    }
+
+    /// Whether a load has set in at rest some steps ago: what moves has hardly moved.
+    pub fn is_young(&self) -> bool {
+        self.began_at_rest && self.steps <= YOUNG
+    }
+
     /// Takes the largest value at a macro point. Gives whether it has grown too much.
     pub fn take(&mut self, largest: f64) -> bool {
         self.steps += 1;
-        if self.steps > FIRST_STEPS && self.is_calm && largest > BEGINS * self.largest {
+        let may_begin = self.is_calm && (self.steps > FIRST_STEPS || self.steps == 2);
+        if may_begin && largest > BEGINS * self.largest {
             *self = Self {
                 steps: 1,
+                began_at_rest: true,
                 ..Self::default()
             };
         }
-        self.is_calm = largest <= CALM * self.largest;
+        self.is_calm = self.steps == 1 && !self.began_at_rest || largest <= CALM * self.largest;
         self.largest = self.largest.max(largest);
         if self.steps <= FIRST_STEPS {
             self.taken = [self.largest; 2];

@@ -25,20 +25,21 @@ const MOST_OPENING: f64 = 0.5;
 const LEAST_MOTION: f64 = 1e-3;
 
 impl Guard {
-    /// For methods that close the joints of a mechanism of this size in m.
-    pub fn of_rigid_joints(size: f64) -> Self {
+    /// For methods that close the joints of a mechanism of this size in m, which starts in `row`.
+    pub fn of_rigid_joints(size: f64, row: &Row) -> Self {
         Self {
-            watches_growth: true,
             watches_openings: true,
             largest_motion: LEAST_MOTION * size,
-            growth: Growth::default(),
+            ..Self::of_springs(row)
         }
     }
 
     /// For methods whose joints are springs: only growth is watched.
-    pub fn of_springs() -> Self {
+    pub fn of_springs(row: &Row) -> Self {
+        let sizes = row.states().map(|(_, value)| value.abs());
         Self {
             watches_growth: true,
+            growth: Growth::from(sizes.fold(0.0, f64::max)),
             ..Self::off()
         }
     }
@@ -58,7 +59,7 @@ impl Guard {
         if self.watches_growth {
             self.judge_growth(step, row)?;
         }
-        if self.watches_openings {
+        if self.watches_openings && !self.growth.is_young() {
             self.judge_opening(step, row, layout)?;
         }
         Ok(())

@@ -59,7 +59,8 @@ const VECTOR: Takes = Takes::List(
     &Takes::Number(FINITE),
     "a list of numbers such as [0.5, 0.0]",
 );
-const SIDE: &str = "`\"SUBSYSTEM\"`, or `\"SUBSYSTEM.MARKER\"` if it has several markers";
+const SIDE: &str = "`\"SUBSYSTEM\"`, or `\"SUBSYSTEM.MARKER\"` if it has several markers of the partner's kind; `\"ground\"`, \
+                    which needs no `[[subsystem]]`, is the origin of the inertial axes";
 const POINT: &str = "point of the joint in the axes of its marker, m";
 const AXIS: &str = "axis of the joint in the axes of its marker, of any length";
 const KINDS: [(&str, JointKind); 12] = [
@@ -131,6 +132,17 @@ pub(super) fn read(
         return None;
     }
     Some(joint)
+}
+
+/// Whether a joint of these tables has this end.
+pub(super) fn any_to(name: &str, tables: &[Section<'_>]) -> bool {
+    let mut ends = tables
+        .iter()
+        .flat_map(|table| ["a", "b"].map(|end| table.find(end)));
+    ends.any(|end| {
+        let text = end.as_ref().and_then(Field::peek_text);
+        text.is_some_and(|text| text.split('.').next() == Some(name))
+    })
 }
 
 fn read_side(

@@ -7,7 +7,7 @@ use super::coupling;
 use super::joint;
 use super::monolithic;
 use super::output;
-use super::resolved::RunSettings;
+use super::resolved::{RunSettings, Subsystem};
 use super::subsystem;
 use super::sweeps;
 use super::whole::Scene;
@@ -95,6 +95,9 @@ pub(super) fn resolve(written: Written, earlier: Vec<SceneError>) -> Result<Scen
     problems.finish(scene)
 }
 
+/// What stands for the inertial axes as the end of a joint: a subsystem of this name and model that no scene has to list.
+const GROUND: &str = "ground";
+
 fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     let root = Section::root(written)?;
     let [
@@ -119,9 +122,13 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     }
     let subsystem_tables = sections(subsystems, problems);
     let joint_tables = sections(joints, problems);
-    let subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
+    let mut subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
+    let has_ground = joint::any_to(GROUND, &joint_tables) && subsystem_names.imply(GROUND);
     Registry::collect("joint", &joint_tables, Some(&subsystem_names), problems);
-    let subsystems = collect(&subsystem_tables, |table| subsystem::read(table, problems));
+    let mut subsystems = collect(&subsystem_tables, |table| subsystem::read(table, problems));
+    if let Some(subsystems) = subsystems.as_mut().filter(|_| has_ground) {
+        subsystems.push(Subsystem::built_in(GROUND));
+    }
     let joints = collect(&joint_tables, |table| {
         joint::read(table, &subsystem_names, problems)
     });

@@ -53,6 +53,21 @@ pub struct Subsystem {
     pub calls: Calls,
 }
 
+impl Subsystem {
+    /// A subsystem with the name and the defaults of a built-in model.
+    pub(super) fn built_in(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            served: Served::BuiltIn,
+            model: Some(name.to_owned()),
+            parameters: BTreeMap::new(),
+            free_velocities: Vec::new(),
+            solver: None,
+            calls: Calls::Automatic,
+        }
+    }
+}
+
 /// One end of a joint.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Side {

@@ -82,12 +82,14 @@ fn choose_model<'a>(
 /// The markers that the joints of the scene hold.
 pub(super) fn mark(scene: &Scene, models: &[v1::Model]) -> Result<Vec<MarkedJoint>, RunError> {
     let mark_one = |joint: &Joint| {
-        let marker = |side: &Side, end: &str| {
+        let marker = |side: &Side, end: &str, partner: &Side| {
             let key = format!("joint.{}.{end}", joint.name);
-            let marker = marker_of(scene, &key, side, &models[side.subsystem])?;
+            let kind = known_kind(partner, &models[partner.subsystem]);
+            let marker = marker_of(scene, &key, (side, kind), &models[side.subsystem])?;
             Ok::<_, RunError>((side.subsystem, marker))
         };
-        let ends = [marker(&joint.a, "a")?, marker(&joint.b, "b")?];
+        let (a, b) = (&joint.a, &joint.b);
+        let ends = [marker(a, "a", b)?, marker(b, "b", a)?];
         let kind = kind_of(scene, joint, &ends)?;
         Ok(MarkedJoint {
             name: joint.name.clone(),
@@ -109,6 +111,16 @@ pub fn multiplier_columns(scene: &Scene, models: &[v1::Model]) -> Result<Vec<Str
         rows.map(|row| column_name(&joint.name, "lambda", joint.joint.name(row)))
     });
     Ok(names.collect())
+}
+
+/// The kind of the marker at an end, if that is named or the only one.
+fn known_kind(side: &Side, model: &v1::Model) -> Option<MarkerKind> {
+    let mut markers = model.markers.iter();
+    match &side.marker {
+        Some(name) => markers.find(|marker| &marker.name == name),
+        None => markers.next().filter(|_| model.markers.len() == 1),
+    }
+    .map(v1::Marker::kind)
 }
 
 /// The kind of the two markers of a joint, which must be the same.
@@ -232,7 +244,7 @@ fn kind_name(marker: &v1::Marker) -> &'static str {
 pub(super) fn marker_of(
     scene: &Scene,
     key: &str,
-    side: &Side,
+    (side, kind): (&Side, Option<MarkerKind>),
     model: &v1::Model,
 ) -> Result<v1::Marker, RunError> {
     let names: Vec<&str> = model
@@ -242,8 +254,14 @@ pub(super) fn marker_of(
         .collect();
     let subsystem = &scene.subsystems[side.subsystem].name;
     match &side.marker {
-        None if model.markers.len() == 1 => Ok(model.markers[0].clone()),
         None => {
+            let of_kind = |marker: &&v1::Marker| {
+                model.markers.len() == 1 || kind.is_some_and(|kind| marker.kind() == kind)
+            };
+            let mut fitting = model.markers.iter().filter(of_kind);
+            if let (Some(only), None) = (fitting.next(), fitting.next()) {
+                return Ok(only.clone());
+            }
             let message = format!(
                 "subsystem \"{subsystem}\" (model \"{}\") has {} markers: {}",
                 model.name,

@@ -51,11 +51,14 @@ fn check_one(scene: &Scene, number: usize, connect: &mut Connect<'_>) -> Result<
     }
     for joint in &scene.joints {
         for (side, end) in [(&joint.a, "a"), (&joint.b, "b")] {
-            if side.subsystem == number {
+            // The partner may choose among markers of several kinds.
+            let mut kinds = model.markers.windows(2);
+            let waits = side.marker.is_none() && kinds.any(|two| two[0].kind != two[1].kind);
+            if side.subsystem == number && !waits {
                 let key = format!("joint.{}.{end}", joint.name);
                 request
                     .inputs
-                    .extend(marker_of(scene, &key, side, &model)?.load);
+                    .extend(marker_of(scene, &key, (side, None), &model)?.load);
             }
         }
     }

@@ -112,8 +112,8 @@ impl CoSimulation {
             .size(|subsystem, place| simulation.row.output(subsystem, place));
         simulation.guard = match scene.coupling.method.parameters().closes_joints() {
             _ if options.watch_nothing => Guard::off(),
-            false => Guard::of_springs(),
-            true => Guard::of_rigid_joints(size),
+            false => Guard::of_springs(&simulation.row),
+            true => Guard::of_rigid_joints(size, &simulation.row),
         };
         panels::check(scene, &simulation.row)?;
         Ok(simulation)

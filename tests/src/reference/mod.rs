@@ -1,9 +1,10 @@
-//! Pages of the reference that are written from the program itself: command line, built-in models, contract, and the keys of
-//! scene, study and spectrum files, with their JSON schemas.
+//! Pages of the reference that are written from the program itself: command line, built-in models, contract, conformance checks,
+//! and the keys of scene, study and spectrum files, with their JSON schemas.
 
 use linchpin_master::scene::{SCENE_KEYS, SPECTRUM_KEYS, STUDY_KEYS};
 
 mod command_line;
+mod conformance;
 mod contract;
 mod keys;
 mod models;
@@ -16,7 +17,7 @@ pub const COMMAND: &str = "cargo run --release -p linchpin-tests --example refer
 const WIDTH: usize = 110;
 
 /// The pages under docs/reference: name of the file and text.
-pub fn pages() -> [(&'static str, String); 8] {
+pub fn pages() -> [(&'static str, String); 9] {
     let scene = ("scene file", &SCENE_KEYS[..]);
     let study = ("study file", &STUDY_KEYS[..]);
     let spectrum = ("spectrum file", &SPECTRUM_KEYS[..]);
@@ -25,6 +26,7 @@ pub fn pages() -> [(&'static str, String); 8] {
         ("command-line.md", command_line::page()),
         ("models.md", models::page()),
         ("contract.md", contract::page()),
+        ("conformance.md", conformance::page()),
         ("scene.md", keys::page("scene.md", &[scene])),
         ("studies.md", keys::page("studies.md", &[study, spectrum])),
         ("scene.schema.json", schema(scene)),

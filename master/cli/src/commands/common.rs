@@ -90,14 +90,16 @@ pub struct WorkerArguments {
     timeout: f64,
 }
 
-fn address(text: &str) -> Result<String, String> {
+/// Reads the address of a worker.
+pub fn address(text: &str) -> Result<String, String> {
     if scene::is_worker_address(text) {
         return Ok(text.to_owned());
     }
     Err("it must be http://HOST:PORT or unix:/PATH".into())
 }
 
-fn seconds(text: &str) -> Result<f64, String> {
+/// Reads a positive time in s.
+pub fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if seconds > 0.0 && seconds <= 1e6 => Ok(seconds),
         _ => Err("it must be a number of seconds greater than 0 and at most 1e6".into()),

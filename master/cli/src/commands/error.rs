@@ -8,6 +8,7 @@ use linchpin_master::scene::{Coupling, SceneErrors};
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
+use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
@@ -151,6 +152,25 @@ pub enum CommandError {
         address: String,
         /// Both versions.
         source: Incompatible,
+    },
+    /// A worker cannot be examined.
+    #[error("no report on the worker: {0}")]
+    Conformance(#[from] Box<ConformanceError>),
+    /// A worker is not what it should be; the report is out.
+    #[error("{failed} of {checks} checks failed; docs/guide/conformance.md explains each")]
+    NotConformant {
+        /// How many checks failed.
+        failed: usize,
+        /// Of how many.
+        checks: usize,
+    },
+    /// The report on a worker cannot be written.
+    #[error("cannot write the report to {}: {source}", path.display())]
+    UnwritableReport {
+        /// The path.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
     },
     /// A worker cannot listen.
     #[error(transparent)]

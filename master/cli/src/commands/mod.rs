@@ -2,6 +2,7 @@
 
 pub mod check;
 pub mod common;
+pub mod conformance;
 pub mod converge;
 pub mod describe;
 pub mod error;

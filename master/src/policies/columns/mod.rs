@@ -1,5 +1,7 @@
 //! Columns of the workers' responses: finite differences with respect to their driven inputs (S1 eqs. 62, 63).
 //!
+//! * `basis`: in which curves inputs are raised;
+//! * `responses`: columns from the answers;
 //! * `measured`: responses over one length, and what they depend on;
 //! * `kept`: responses of earlier macro steps that stay in use;
 //! * `axes`: responses that turn with the bodies;
@@ -8,10 +10,12 @@
 //! * `resolution`: whether the macro step resolves the responses.
 
 mod axes;
+mod basis;
 mod kept;
 mod lengths;
 mod measured;
 mod resolution;
+mod responses;
 mod settings;
 
 use std::ops::Range;
@@ -26,6 +30,7 @@ use crate::system::{
 
 use serde::{Deserialize, Serialize};
 
+pub use basis::{Basis, Measuring};
 use kept::Kept;
 use measured::{Kind, Measured};
 pub use resolution::Resolution;
@@ -87,54 +92,6 @@ pub struct State {
     /// Size of the mechanism in m.
     size: f64,
     resolution: Resolution,
-}
-
-/// How responses are measured.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Measuring {
-    /// How much inputs are raised.
-    pub increment: Increment,
-    /// What motion is measured by at the start.
-    pub sizes: Sizes,
-    /// In which curves.
-    pub basis: Basis,
-    /// Whether responses stay in use after their macro step.
-    pub stay: bool,
-}
-
-/// In which curves inputs are raised.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Basis {
-    /// In the shapes of the unknowns themselves: one each, but where a shape depends on past nodes its response serves with these alone.
-    Shapes,
-    /// In the powers of the share of the step that the shapes are made of: responses to shapes with any past nodes follow from these.
-    Powers,
-}
-
-impl Basis {
-    /// Number of curves for an input with this many shapes.
-    fn curves(self, shapes: usize) -> usize {
-        match self {
-            Self::Shapes => shapes,
-            Self::Powers => SharePolynomial::TERMS,
-        }
-    }
-
-    /// The past nodes on which responses depend, of those on which the shapes do.
-    fn nodes(self, nodes: Nodes<'_>) -> Nodes<'_> {
-        match self {
-            Self::Shapes => nodes,
-            Self::Powers => Nodes::default(),
-        }
-    }
-
-    /// One of these curves, for an input with these shapes.
-    fn curve(self, shapes: &[SharePolynomial], number: usize) -> SharePolynomial {
-        match self {
-            Self::Shapes => shapes[number],
-            Self::Powers => SharePolynomial::power(number),
-        }
-    }
 }
 
 impl Columns {
@@ -408,84 +365,6 @@ impl Columns {
             }
         }
         self.combine();
-    }
-
-    fn take_responses(&mut self, layout: &Layout, ahead: &dyn LookAhead) {
-        self.resolution.begin();
-        let reached =
-            layout.largest_position(|subsystem, place| ahead.unperturbed(subsystem)[place]);
-        self.length_ahead = self.sizes.length.max(reached);
-        for (number, input) in layout.inputs.iter().enumerate() {
-            for (curve, place) in self.raised_of_input[number].clone().enumerate() {
-                self.responses[place].clear();
-                if let Some(asked) = self.raised[place].place {
-                    self.take_response(ahead, asked, (input.subsystem, place));
-                    self.judge_response(input.subsystem, (number, curve), place);
-                }
-            }
-        }
-        self.resolution.judge();
-    }
-
-    /// Takes answer number `asked` of a subsystem.
-    fn take_response(
-        &mut self,
-        ahead: &dyn LookAhead,
-        asked: usize,
-        (subsystem, place): (usize, usize),
-    ) {
-        let gives_derivatives = self.gives_derivatives(subsystem);
-        let raised = &mut self.raised[place];
-        if gives_derivatives {
-            raised.derivatives.clear();
-            let derivatives = ahead.derivatives(subsystem, asked);
-            raised.derivatives.extend_from_slice(derivatives);
-        } else {
-            let perturbed = ahead.perturbed(subsystem, asked);
-            raised.difference(ahead.unperturbed(subsystem), perturbed);
-        }
-        raised.note_response(&self.positions[subsystem], self.length, self.sizes.length);
-        std::mem::swap(&mut self.responses[place], &mut raised.derivatives);
-    }
-
-    fn judge_response(&mut self, subsystem: usize, (input, curve): (usize, usize), place: usize) {
-        // A constant part of a polynomial acts from the start: the acceleration at the end of the step is none of its conditions.
-        let is_part = self.basis == Basis::Powers && curve == 0 && self.needed[place + 1];
-        if self.raised[place].is_load && !is_part {
-            let shapes = &self.shapes[self.of_input[input].clone()];
-            let shape = self.basis.curve(shapes, curve);
-            let response = &self.responses[place];
-            self.resolution
-                .take(subsystem, (curve, &shape), self.length, response);
-        }
-    }
-
-    /// The columns from the responses in the present step.
-    fn combine(&mut self) {
-        for (columns, raised) in self.of_input.iter().zip(&self.raised_of_input) {
-            let responses = &mut self.responses[raised.clone()];
-            for (number, column) in columns.clone().enumerate() {
-                let derivatives = &mut self.columns[column].derivatives;
-                match self.basis {
-                    Basis::Shapes => std::mem::swap(derivatives, &mut responses[number]),
-                    Basis::Powers => {
-                        let coefficients = self.shapes[column].coefficients();
-                        add_up(responses.iter().zip(coefficients), derivatives);
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// `sum coefficient response`; responses that are not known have no part in it.
-fn add_up<'a>(terms: impl Iterator<Item = (&'a Vec<f64>, &'a f64)>, sums: &mut Vec<f64>) {
-    sums.clear();
-    for (response, coefficient) in terms {
-        sums.resize(sums.len().max(response.len()), 0.0);
-        for (sum, one) in sums.iter_mut().zip(response) {
-            *sum += coefficient * one;
-        }
     }
 }
 

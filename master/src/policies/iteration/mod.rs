@@ -1,11 +1,11 @@
 //! How often a macro step is corrected, and when the columns of the coupling Jacobian are asked for afresh.
 
+mod learning;
 mod rules;
 mod settings;
+mod state;
 #[cfg(test)]
 mod tests;
-
-use serde::{Deserialize, Serialize};
 
 use crate::accuracy::Change;
 use crate::results::Passes;
@@ -13,6 +13,8 @@ use crate::time::MacroStep;
 
 pub use rules::{Iterations, Jacobian, Otherwise};
 pub use settings::Settings;
+pub use state::State;
+use state::{curvature, rate};
 
 /// What corrections of a step have missed, relative to the first corrections of the last macro steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,44 +61,6 @@ pub struct IterationControl {
     /// Rate of columns of which no step has shown it: where steps vary they are trusted for one step.
     unknown_rate: Option<f64>,
     state: State,
-}
-
-/// What is known of the columns at hand and of the present step.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct State {
-    /// Share that a correction misses with the columns at hand; `None` until a step has shown it.
-    rate: Option<f64>,
-    /// Share that a correction misses even with new columns, since the conditions are not linear.
-    fresh_rate: Option<f64>,
-    /// The same per size of the correction, where that is known relative to the error that is allowed: what is missed goes with the square.
-    curvature: Option<f64>,
-    /// Share that the first correction of a step has left, which takes into account what it was foreseen to miss.
-    left_by_first: Option<f64>,
-    /// Whether the columns at hand belong to the look-ahead over the present step.
-    are_fresh: bool,
-    /// Whether the present step was predicted without a past.
-    is_blind: bool,
-    /// Whether the last look-ahead, over the following step, was asked for columns.
-    come_next: bool,
-    /// Share of the columns for it that may be wrong because they were measured over other lengths; `None` if it brings new ones.
-    off_by_length: Option<f64>,
-    /// Whether corrections converged too slowly when the last step was taken.
-    is_slow: bool,
-    /// Length of that step in s.
-    length: f64,
-    /// Macro steps of this length in a row that needed passes with columns of other lengths.
-    borrowed: u32,
-    /// Size of the first correction of the step, relative to usual ones and to the variables.
-    first: f64,
-    first_of_size: f64,
-    /// Largest share that corrections have missed that were not rounding, older ones counting less.
-    curved: f64,
-    /// Size of first corrections relative to the variables while nothing grows.
-    calm: f64,
-    last: Change,
-    /// What passes do not take away: rounding and the errors of the solvers.
-    noise: f64,
-    passes: Passes,
 }
 
 impl IterationControl {
@@ -376,53 +340,6 @@ impl IterationControl {
         self.state.are_fresh
     }
 
-    /// After the step: an advance shows what was missed without a pass.
-    pub fn learn(&mut self, missed: Missed) {
-        let of_last = rate(missed.by_last, self.state.last.of_usual);
-        self.state.note_curved(of_last, &self.settings);
-        let is_noise = self.listen(missed);
-        match self.state.are_fresh {
-            // What new columns leave says nothing of how they serve in later steps.
-            true => {
-                self.state.fresh_rate = Some(of_last);
-                self.state.curvature = curvature(of_last, self.state.last);
-                (self.state.rate, self.state.left_by_first) = (None, None);
-            }
-            false => self.note_missed(missed, is_noise),
-        }
-    }
-
-    fn note_missed(&mut self, missed: Missed, is_noise: bool) {
-        let state = &mut self.state;
-        let of_first = rate(missed.by_first, state.first);
-        let of_last = rate(missed.by_last, state.last.of_usual);
-        if state.passes.count == 0 {
-            state.left_by_first = Some(of_last);
-        }
-        let tells_rate = state.passes.count > 0 && !is_noise;
-        state.rate = Some(if tells_rate {
-            of_first.max(of_last)
-        } else {
-            of_first
-        });
-    }
-
-    /// A pass leaves a share of what it has changed; where it leaves most of it and the columns do not explain that, no further pass
-    /// would take it away. Gives whether that is so.
-    fn listen(&mut self, missed: Missed) -> bool {
-        let (settings, state) = (&self.settings, &mut self.state);
-        let left = missed.by_last;
-        let expected = state.rate.unwrap_or_default() * state.last.of_usual;
-        let useless = settings.useless * state.last.of_usual;
-        let is_noise =
-            state.passes.count > 0 && left > (settings.above_noise * expected).max(useless);
-        state.noise = match is_noise {
-            true => state.noise.max(left),
-            false => settings.fading * state.noise,
-        };
-        is_noise
-    }
-
     /// What is known, to be written.
     pub fn state(&self) -> State {
         self.state
@@ -434,30 +351,6 @@ impl IterationControl {
     }
 }
 
-impl State {
-    /// The last correction has missed a share.
-    fn note_curved(&mut self, rate: f64, settings: &Settings) {
-        self.curved *= settings.fading;
-        if self
-            .last
-            .of_allowed
-            .is_some_and(|change| change > settings.nothing)
-        {
-            self.curved = self.curved.max(rate);
-        }
-    }
-}
-
 fn larger((one, other): (f64, f64)) -> f64 {
     one.max(other)
-}
-
-/// The share that a correction has missed per size of it.
-fn curvature(rate: f64, change: Change) -> Option<f64> {
-    let change = change.of_allowed.filter(|change| *change > 0.0)?;
-    Some(rate / change)
-}
-
-fn rate(size: f64, before: f64) -> f64 {
-    if before > 0.0 { size / before } else { 0.0 }
 }
