@@ -16,7 +16,19 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "runs"))
 
 from linchpin import EXAMPLES, PACKAGE, PROGRAM, linchpin
 
-__all__ = ["EXAMPLES", "PACKAGE", "PROGRAM", "assert_rates", "example", "inputs", "made", "needed", "opening", "results"]
+__all__ = [
+    "EXAMPLES",
+    "PACKAGE",
+    "PROGRAM",
+    "assert_rates",
+    "example",
+    "inputs",
+    "linchpin",
+    "made",
+    "needed",
+    "opening",
+    "results",
+]
 
 # The workers are other processes.
 os.environ["PYTHONPATH"] = str(PACKAGE / "src")
