@@ -4,11 +4,9 @@ It stands out from a wall in the direction of x and bends in y and z; its deflec
 """
 
 import numpy as np
-import scipy.linalg
-from skfem import Basis, BilinearForm, ElementLineHermite, LinearForm, MeshLine
-from skfem.helpers import dd, ddot
+from beam_elements import PARAMETERS, beam
 
-from linchpin_worker import Description, Parameter, Refused, Subsystem, serve, spatial_marker
+from linchpin_worker import Description, Subsystem, serve, spatial_marker
 
 TIP = spatial_marker("tip", orientation=False)
 
@@ -18,22 +16,7 @@ COLLOCATION = NODES[:, None] ** [1, 2, 3] / [1, 2, 3] @ np.linalg.inv(np.vander(
 WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18.0
 
 
-@BilinearForm
-def bending(u, v, _):
-    return ddot(dd(u), dd(v))
-
-
-@BilinearForm
-def inertia(u, v, _):
-    return u * v
-
-
-@LinearForm
-def area(v, _):
-    return v
-
-
-class Beam(Subsystem):
+class WallBeam(Subsystem):
     """The state has the lowest modes of bending and their rates, as rows, in y and z, as columns."""
 
     description = Description(
@@ -41,34 +24,15 @@ class Beam(Subsystem):
         text="elastic beam of circular section on a wall, by scikit-fem",
         inputs=TIP.inputs,
         outputs=TIP.outputs,
-        parameters=[
-            Parameter("length", "m", above=0.0),
-            Parameter("radius", "m", above=0.0),
-            Parameter("elasticity", "Pa", above=0.0),
-            Parameter("density", "kg/m^3", above=0.0),
-            Parameter("damping", default=0.0, least=0.0, description="share of the critical damping, of every mode"),
-            Parameter("gravity", "m/s^2", default=9.81),
-            Parameter("elements", default=8.0, least=1.0),
-            Parameter("modes", default=2.0, least=1.0, description="number of modes in each direction"),
-        ],
+        parameters=PARAMETERS,
         markers=[TIP],
         repeats_step_sequence=True,
     )
 
     def __init__(self, setup):
-        self.length, radius, elasticity, density = setup.numbers("length", "radius", "elasticity", "density")
-        elements, modes = int(setup["elements"]), int(setup["modes"])
-        if modes > 2 * elements:
-            raise Refused("parameters.modes", f"{modes} is more than the {2 * elements} that {elements} elements have", " = ")
-        basis = Basis(MeshLine(np.linspace(0.0, self.length, elements + 1)), ElementLineHermite())
-        free = basis.complement_dofs(basis.get_dofs(lambda x: x[0] == 0.0))
-        section = np.pi * radius**2
-        stiffness = elasticity * section * radius**2 / 4 * bending.assemble(basis).toarray()[np.ix_(free, free)]
-        mass = density * section * inertia.assemble(basis).toarray()[np.ix_(free, free)]
-        squares, shapes = scipy.linalg.eigh(stiffness, mass, subset_by_index=[0, modes - 1])
-        # Of a node come first its deflection and then its slope; the tip is the last one.
-        self.tip = shapes[-2]
-        weight = density * section * area.assemble(basis)[free] @ shapes
+        modal, self.length = beam(setup), setup["length"]
+        self.tip, squares, modes = modal.tip, modal.squares, len(modal.squares)
+        weight = modal.masses @ modal.shapes
         self.matrix = np.zeros((2 * modes, 2 * modes))
         self.matrix[:modes, modes:] = np.eye(modes)
         self.matrix[modes:, :modes] = -np.diag(squares)
@@ -105,4 +69,4 @@ class Beam(Subsystem):
 
 
 if __name__ == "__main__":
-    serve(Beam)
+    serve(WallBeam)

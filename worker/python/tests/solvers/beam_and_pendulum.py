@@ -16,7 +16,7 @@ WEIGHT = np.array([0.0, 0.0, -9.81])
 
 def beam_alone(times):
     """Tip of the beam and attitude of the pendulum."""
-    beam = made(example("scikit_fem", "beam_worker").Beam, **BEAM)
+    beam = made(example("scikit_fem", "beam_worker").WallBeam, **BEAM)
     modes = beam.state.size // 2
     start = np.concatenate([np.zeros(2 * modes), [1.0, 0.0, 0.0, 0.0], np.zeros(3)])
     done = solve_ivp(lambda _, state: slope(beam, state), (0.0, times[-1]), start, "DOP853", times, rtol=1e-12, atol=1e-13)

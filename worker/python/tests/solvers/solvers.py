@@ -1,6 +1,7 @@
 """Solvers of others: their examples, and the scenes of these."""
 
 import csv
+import importlib
 import importlib.util
 import os
 import pathlib
@@ -16,19 +17,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "runs"))
 
 from linchpin import EXAMPLES, PACKAGE, PROGRAM, linchpin
 
-__all__ = [
-    "EXAMPLES",
-    "PACKAGE",
-    "PROGRAM",
-    "assert_rates",
-    "example",
-    "inputs",
-    "linchpin",
-    "made",
-    "needed",
-    "opening",
-    "results",
-]
+__all__ = ["EXAMPLES", "PACKAGE", "PROGRAM", "linchpin"]
 
 # The workers are other processes.
 os.environ["PYTHONPATH"] = str(PACKAGE / "src")
@@ -42,10 +31,12 @@ def needed(*modules):
 
 def example(solver, module):
     """The module of an example."""
-    spec = importlib.util.spec_from_file_location(module, EXAMPLES / solver / f"{module}.py")
-    loaded = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(loaded)
-    return loaded
+    # As a program sees the files beside it.
+    sys.path.insert(0, str(EXAMPLES / solver))
+    try:
+        return importlib.import_module(module)
+    finally:
+        sys.path.pop(0)
 
 
 def results(solver, scene, *settings):

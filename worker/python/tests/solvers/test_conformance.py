@@ -9,6 +9,8 @@ BODY = ("m=0.8", "j1=0.008", "j2=0.02", "j3=0.025", "start_x=-0.2", "start_y=0.0
 SPIN = ("omega1_0=1", "omega2_0=-2", "omega3_0=1.5", "vx0=0.4")
 BEAM = ("length=1.0", "radius=0.01", "elasticity=3e9", "density=1200.0")
 
+FINGER = ("length=0.3", "radius=0.01", "elasticity=5e7", "density=1200")
+
 
 class Conformance(unittest.TestCase):
     def assert_conforms(self, solver, command, *parameters):
@@ -28,6 +30,7 @@ class Conformance(unittest.TestCase):
     @needed("skfem")
     def test_scikit_fem(self):
         self.assert_conforms("scikit_fem", ["beam_worker.py"], *BEAM)
+        self.assert_conforms("scikit_fem", ["finger_worker.py"], *FINGER)
 
 
 if __name__ == "__main__":

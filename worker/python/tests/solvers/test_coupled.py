@@ -5,6 +5,7 @@ import math
 import pathlib
 import unittest
 
+from arm_and_finger import finger_alone
 from beam_and_pendulum import beam_alone
 from solvers import EXAMPLES, needed, opening, results
 
@@ -73,6 +74,10 @@ class Coupled(unittest.TestCase):
     @needed("mujoco", "skfem")
     def test_a_pendulum_of_mujoco_on_a_beam_of_scikit_fem(self):
         self.assert_converges("scikit_fem", "beam_and_pendulum.toml", "hook", beam_alone, (8e-3, 4e-3, 2e-3))
+
+    @needed("mujoco", "skfem")
+    def test_a_finger_of_scikit_fem_welded_to_an_arm_of_mujoco(self):
+        self.assert_converges("scikit_fem", "arm_and_finger.toml", "weld", finger_alone, (4e-3, 2e-3, 1e-3))
 
     @needed("mujoco", "exudyn")
     def test_a_second_run_has_the_same_bits(self):

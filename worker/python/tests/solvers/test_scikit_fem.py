@@ -18,7 +18,7 @@ class Model(unittest.TestCase):
     """A model without a server."""
 
     def setUp(self):
-        self.model = example("scikit_fem", "beam_worker").Beam
+        self.model = example("scikit_fem", "beam_worker").WallBeam
 
     def test_at_rest_it_hangs_as_a_beam_does(self):
         load = inputs(self.model, 1.0, tip_fy=(0.3, 0.3))
