@@ -16,8 +16,8 @@ PARAMETERS = [
     Parameter("density", "kg/m^3", above=0.0),
     Parameter("damping", default=0.0, least=0.0, description="share of the critical damping, of every mode"),
     Parameter("gravity", "m/s^2", default=9.81),
-    Parameter("elements", default=8.0, least=1.0),
-    Parameter("modes", default=2.0, least=1.0, description="number of modes in each direction"),
+    Parameter("elements", default=8, least=1),
+    Parameter("modes", default=2, least=1, description="number of modes in each direction"),
 ]
 
 

@@ -7,11 +7,11 @@ reference). The sections move as rigid discs along y and z, and its length stays
 import numpy as np
 from beam_elements import PARAMETERS, beam
 
-from linchpin_worker import Description, Parameter, Subsystem, quaternion_of_matrix, serve, spatial_marker
+from linchpin_worker import Description, Parameter, Solver, Subsystem, quaternion_of_matrix, serve, spatial_marker
 
 ROOT, TIP = spatial_marker("root"), spatial_marker("tip", orientation=False)
 PLACE = [Parameter(name, "m", default=0.0) for name in ("x0", "y0", "z0")]
-OPTIONS = Parameter("dt", "s", default=5e-4, above=0.0, description="longest internal step")
+RK4 = Solver("rk4", options=[Parameter("dt", "s", default=5e-4, above=0.0, description="longest internal step")])
 
 
 class Finger(Subsystem):
@@ -24,13 +24,14 @@ class Finger(Subsystem):
         text="elastic finger of circular section in space, by scikit-fem; at the start along x",
         inputs=[*ROOT.inputs, *TIP.inputs],
         outputs=[*ROOT.outputs, *TIP.outputs],
-        parameters=[*PARAMETERS, *PLACE, OPTIONS],
+        parameters=[*PARAMETERS, *PLACE],
+        solvers=[RK4],
         markers=[ROOT, TIP],
         repeats_step_sequence=True,
     )
 
     def __init__(self, setup):
-        modal, self.dt = beam(setup), setup["dt"]
+        modal, self.dt = beam(setup), setup.options["dt"]
         self.modes = len(modal.squares)
         self.squares = np.repeat(modal.squares, 2)
         self.damping = 2.0 * setup["damping"] * np.sqrt(self.squares)

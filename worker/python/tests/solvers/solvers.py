@@ -9,9 +9,10 @@ import sys
 import tempfile
 import unittest
 
-from linchpin_worker import Setup
+from linchpin_worker._contract import worker_pb2 as pb
 from linchpin_worker.inputs import Inputs, values_type
 from linchpin_worker.polynomial import Polynomial
+from linchpin_worker.setup import setup_of
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "runs"))
 
@@ -56,10 +57,8 @@ def opening(columns, joint):
 
 def made(model, **parameters):
     """An instance of a model, outside of a server."""
-    known = {parameter.name: parameter.default for parameter in model.description.parameters}
-    solver = next(iter(model.description.solvers), None)
-    options = {} if solver is None else {option.name: option.default for option in solver.options}
-    return model(Setup({**known, **parameters}, "" if solver is None else solver.name, options, 0.0))
+    given = {name: pb.Value(number=value) for name, value in parameters.items()}
+    return model(setup_of(model.description, pb.InitializeRequest(parameters=given)))
 
 
 def inputs(model, step, **values):
