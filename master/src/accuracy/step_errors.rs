@@ -51,6 +51,8 @@ struct Told {
     lower: [Lower; 2],
     /// That of the last step, as a share of the motion.
     last: Option<f64>,
+    /// Whether a step was accepted, whose attempt tells the lever.
+    knows_lever: bool,
 }
 
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -79,6 +81,7 @@ impl StepErrors {
                 groups: vec![Group::default(); bearable.sizes()],
                 lower: Default::default(),
                 last: are_known.then_some(0.0),
+                knows_lever: false,
             },
             bearable,
         }
@@ -94,9 +97,9 @@ impl StepErrors {
         self.bearable.foresee(outputs);
     }
 
-    /// Whether the lever is not known by which angles are compared with lengths.
+    /// Whether the lever is not known by which angles are compared with lengths: every attempt at the first step tells it anew.
     pub fn needs_lever(&self) -> bool {
-        self.bearable.lever().is_none()
+        !self.told.knows_lever
     }
 
     /// Takes the lever: from the largest effect of a unit force on lengths, and of a unit moment on angles, with `H^2/m` and `H^2/J` the root of
@@ -133,6 +136,7 @@ impl StepErrors {
             return;
         }
         self.told.last = Some(BEARABLE * estimate.scaled);
+        self.told.knows_lever = true;
         self.told.lower[0] = self.told.lower[1];
         let Some((group, size)) = self.bearable.size_of(layout, estimate.suspect) else {
             return;

@@ -240,12 +240,7 @@ impl Tolerance {
         self.state.sizes.len()
     }
 
-    /// The radius in m by which angles are compared with lengths, if it is known.
-    pub fn lever(&self) -> Option<f64> {
-        self.state.lever
-    }
-
-    /// Gives that radius.
+    /// Gives the radius in m by which angles are compared with lengths.
     pub fn set_lever(&mut self, lever: f64) {
         self.state.lever = Some(lever);
     }

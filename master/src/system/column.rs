@@ -196,10 +196,11 @@ impl Column {
         self.response = self.kept;
     }
 
-    /// The least increment of a load of this size, by the last known response: it stands a thousand times above the noise of
-    /// the solver, and moves over the whole span by a thousandth of the sizes. It stands well above rounding, if that takes neither a load that
+    /// The least increment of a load of this size, by the last known response: it stands a thousand times above the noise of the solver, and
+    /// moves over the whole span by a thousandth of the sizes. It stands well above rounding, if that takes neither a load that
     /// moves over the span by a tenth of the sizes, nor a hundredth of the load: over the shortest steps rounding is all that there is. Over nothing
-    /// only accelerations respond, which are known as well as that. Not known if nothing responds.
+    /// only accelerations respond, which are linear in loads: one that moves over the span by the sizes is as good as any. Not known if
+    /// nothing responds.
     pub fn least(&self, load: f64, listening: Listening) -> Option<f64> {
         let Listening {
             length,
@@ -214,7 +215,7 @@ impl Column {
         let natural = 2.0 / (span * span * share);
         let least = AUTOMATIC * natural;
         if length == 0.0 {
-            return Some(least);
+            return Some(natural);
         }
         let pace = 2.0 / (length * length);
         let above_noise = noise.map_or(0.0, |noise| pace * ABOVE_NOISE * noise / value);

@@ -43,6 +43,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             "block",
             "bouncing-ball",
             "dc-motor",
+            "ground",
             "mass-chain",
             "oscillator",
             "pendulum",
