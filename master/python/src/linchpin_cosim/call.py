@@ -63,6 +63,7 @@ def call(
                     look()
                     if stop is not None and stop.is_set():
                         process.send_signal(signal.SIGINT)
+                        stop = None
         except BaseException:
             process.send_signal(signal.SIGINT)
             process.communicate()

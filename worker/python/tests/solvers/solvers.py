@@ -27,7 +27,7 @@ os.environ["PYTHONPATH"] = str(PACKAGE / "src")
 def needed(*modules):
     """Skips a test where a solver is not installed, and says how to have it."""
     missing = [module for module in modules if importlib.util.find_spec(module) is None]
-    return unittest.skipIf(missing, f"{', '.join(missing)} is missing; install it by: tests/python/add.sh solvers")
+    return unittest.skipIf(missing, f"not installed: {', '.join(missing)}; to have it: bash tests/python/add.sh solvers")
 
 
 def example(solver, module):
