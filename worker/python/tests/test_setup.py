@@ -36,6 +36,10 @@ class Setups(unittest.TestCase):
         self.assertEqual(found.parameters, expected)
         self.assertEqual((found.t_start, found["m"], found.numbers("restitution", "m")), (0.25, 2.0, [0.5, 2.0]))
 
+    def test_a_default_may_be_a_whole_number(self):
+        description = Description("own", parameters=[Parameter("elements", default=8)])
+        self.assertEqual(setup_of(description, pb.InitializeRequest()).numbers("elements"), [8.0])
+
     def test_only_numbers_are_read_as_numbers(self):
         with self.assertRaisesRegex(TypeError, r"parameter mesh is no number; take setup.parameters\['mesh'\]"):
             setup().numbers("m", "mesh")

@@ -107,7 +107,7 @@ def complete(table: str, given: Mapping[str, pb.Value], known: Sequence[Paramete
         if parameter.name in given:
             values[parameter.name] = parameter.read(field, given[parameter.name])
         elif parameter.default is not None:
-            values[parameter.name] = parameter.default
+            values[parameter.name] = float(parameter.default)
         else:
             raise Refused(field, f"is missing; the model needs {WORDS[parameter.kind]}", between=" ")
     return values
