@@ -25,8 +25,12 @@ fn rod(mass: f64, coupling: &str) -> Trajectory {
 /// The frequency of the rod under the pull of the bob is 870 rad/s at 0.1 g, and goes with the root of its mass.
 #[test]
 fn steps_that_resolve_the_rod_are_enough() {
-    for (mass, h) in [(1e-2, 3e-3), (1e-3, 9e-4), (1e-4, 3e-4)] {
-        for degree in [2, 3] {
+    for (mass, h, degrees) in [
+        (1e-2, 3e-3, 2..=3),
+        (1e-3, 9e-4, 2..=3),
+        (1e-4, 3e-4, 2..=2),
+    ] {
+        for degree in degrees {
             let own = rod(
                 mass,
                 &format!("method=hermite degree={degree} macro_step={h:e}"),
