@@ -111,3 +111,20 @@ fn least_norm_shares_the_load() {
         square(&one)
     );
 }
+
+/// Multipliers that the scene gives need no search at the start, but share the load as well.
+#[test]
+fn given_multipliers_are_redundant_as_well() {
+    let coupling = "method=hermite degree=3 macro_step=7e-3";
+    let found = run(&door(2, coupling), Place::InProcess);
+    let mut scene = door(2, coupling);
+    for joint in &mut scene.joints {
+        let start = format!("{}.lambda.", joint.name);
+        let names = found.columns.iter().filter(|name| name.starts_with(&start));
+        joint.multiplier = Some(names.map(|name| found.column(name)[0]).collect());
+    }
+    let given = run(&scene, Place::InProcess);
+    assert_eq!(given.statistics.redundancy, found.statistics.redundancy);
+    let off = largest_difference(&given, &found);
+    assert!(off < 1e-13, "{off:e}");
+}

@@ -15,8 +15,8 @@ use crate::system::Outputs;
 /// often is not less accurate for it. Every connected signal has its own.
 pub struct Tolerance {
     relative: f64,
-    /// Of lengths in m, and of all else.
-    absolute: [f64; 2],
+    /// Of what is no length.
+    absolute: f64,
     /// Whether sizes are displacements from the start, and errors are not shared out along the path.
     is_of_motion: bool,
     state: State,
@@ -104,9 +104,10 @@ impl Tolerance {
             .outputs
             .iter()
             .map(|outputs| vec![None; outputs.len()]);
+        let [lengths, others] = absolute;
         let mut tolerance = Self {
             relative,
-            absolute,
+            absolute: others,
             is_of_motion,
             state: State {
                 lever: None,
@@ -120,7 +121,6 @@ impl Tolerance {
             // Motion is that of the whole scene: a joint may stay where it is.
             let known = sizes.filter(|_| is_of_motion);
             let [length, angle] = known.unwrap_or_else(|| {
-                let [lengths, others] = absolute;
                 let groups = [(f64::INFINITY, lengths), (1.0, others)];
                 groups.map(|(most, absolute)| tolerance.add_size(most, absolute))
             });
@@ -142,7 +142,7 @@ impl Tolerance {
         }
         for exchanged in &layout.exchanged {
             if let What::Output(place) = exchanged.what {
-                let own = tolerance.add_size(f64::INFINITY, absolute[1]);
+                let own = tolerance.add_size(f64::INFINITY, others);
                 tolerance.watch(exchanged.subsystem, place, own);
             }
         }
@@ -286,7 +286,7 @@ impl Tolerance {
                 let path = if self.is_of_motion { 0.0 } else { path };
                 (absolute + self.relative * largest) / (1.0 + path)
             }
-            None => self.absolute[1],
+            None => self.absolute,
         };
         allowed.max(self.solvers[subsystem])
     }
@@ -308,7 +308,7 @@ impl Tolerance {
 
     /// How far a joint may be open in one row: as far as its markers may be off.
     pub fn allowed_of_opening(&self, layout: &Layout, row: usize) -> f64 {
-        output_like(layout, row).map_or(self.absolute[1], |[subsystem, output]| {
+        output_like(layout, row).map_or(self.absolute, |[subsystem, output]| {
             self.allowed_of_output(subsystem, output)
         })
     }
@@ -317,7 +317,7 @@ impl Tolerance {
     pub fn allowed_of_variable(&self, subsystem: usize, what: What) -> f64 {
         match what {
             What::Output(output) => self.allowed_of_output(subsystem, output),
-            What::Attitude { .. } => self.absolute[1] + self.relative,
+            What::Attitude { .. } => self.absolute + self.relative,
         }
     }
 }

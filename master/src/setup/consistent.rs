@@ -2,8 +2,7 @@
 
 use super::consistency;
 use super::initial::InitialState;
-use super::responses;
-use super::settle::{Multipliers, settle};
+use super::settle::{Multipliers, look, settle};
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{Coupled, Layout};
@@ -36,11 +35,13 @@ pub(super) fn find(
         let layout =
             { accelerating.as_ref() }.map_err(|lacks| ask_for_multiplier(scene, lacks.joint))?;
         settle((scene, coupled), layout, workers, &mut state, solve_for)?;
-    } else if !scene.connections.is_empty() {
+        return Ok(state);
+    }
+    if !scene.connections.is_empty() {
         settle((scene, coupled), layout, workers, &mut state, solve_for)?;
     }
-    if let Ok(layout) = &accelerating {
-        state.responses = responses::of_accelerations(scene.t_start, layout, workers, &state)?;
+    if let Some(layout) = accelerating.ok().filter(|_| !scene.joints.is_empty()) {
+        look((scene, coupled), &layout, workers, &mut state)?;
     }
     Ok(state)
 }

@@ -53,17 +53,14 @@ pub(super) fn columns(
     Ok(columns)
 }
 
-/// The response to each input; not known of inputs that are no loads or not perturbed. `layout` reads accelerations.
+/// The response to each input from these `columns`; not known of inputs that are no loads or not perturbed. `layout` reads accelerations.
 pub(super) fn of_accelerations(
-    t: f64,
     layout: &Layout,
-    workers: &Workers,
-    state: &InitialState,
-) -> Result<Vec<Option<Response>>, RunError> {
-    let base = super::initial::evaluate_all(layout, workers, t, state)?;
-    let size = layout.size(|subsystem, place| base[subsystem][place]);
-    let columns = columns(t, layout, workers, state, &base)?;
-    let of_input = layout.inputs.iter().zip(&columns).map(|(input, column)| {
+    outputs: &[Vec<f64>],
+    columns: &[Column],
+) -> Vec<Option<Response>> {
+    let size = layout.size(|subsystem, place| outputs[subsystem][place]);
+    let of_input = layout.inputs.iter().zip(columns).map(|(input, column)| {
         let is_told = input.is_perturbed && column.is_load;
         is_told.then(|| {
             let ends = layout.joints.iter().flat_map(|joint| &joint.ends);
@@ -78,5 +75,5 @@ pub(super) fn of_accelerations(
             largest
         })
     });
-    Ok(of_input.collect())
+    of_input.collect()
 }

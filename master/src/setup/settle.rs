@@ -5,7 +5,7 @@ use super::signal_loop::SignalBlock;
 use super::{redundancy, responses};
 use crate::error::RunError;
 use crate::joint::Level;
-use crate::layout::{Coupled, Layout};
+use crate::layout::{Border, Coupled, Layout};
 use crate::scene::{Connection, Scene};
 use crate::system::solve::{LinearSolver, SingularColumn};
 use crate::system::unknowns::Unknowns;
@@ -43,18 +43,7 @@ pub(super) fn settle(
     multipliers: Multipliers,
 ) -> Result<(), RunError> {
     let shown = state.clone();
-    let mut search = Search {
-        scene,
-        layout,
-        workers,
-        multipliers,
-        signals: coupled
-            .connections
-            .iter()
-            .map(|one| layout.variable_of(one))
-            .collect(),
-        sizes: vec![0.0; layout.variables()],
-    };
+    let mut search = Search::new((scene, coupled), layout, workers, multipliers);
     let found = search.run(state);
     let mut begin = shown.clone();
     for (connection, signal) in coupled.connections.iter().zip(&search.signals) {
@@ -66,6 +55,26 @@ pub(super) fn settle(
     *state = begin;
     search.sizes.fill(0.0);
     search.run(state)
+}
+
+/// Without a search: what loads do at the start, and which conditions follow from others, where the scene gives the multipliers.
+pub(super) fn look(
+    (scene, coupled): (&Scene, &Coupled<'_>),
+    layout: &Layout,
+    workers: &Workers,
+    state: &mut InitialState,
+) -> Result<(), RunError> {
+    let search = Search::new((scene, coupled), layout, workers, Multipliers::Held);
+    let mut system = System::new(layout, Unknowns::ends(layout));
+    let outputs = search.evaluate(state)?;
+    search.linearise(state, &outputs, &mut system)?;
+    state.border = border_of(layout, &mut system);
+    Ok(())
+}
+
+fn border_of(layout: &Layout, system: &mut System) -> Border {
+    let (pattern, values, _) = system.level_equation(Level::Acceleration);
+    redundancy::find(layout, pattern, values)
 }
 
 /// The search for the variables.
@@ -80,7 +89,24 @@ struct Search<'a> {
     sizes: Vec<f64>,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn new(
+        (scene, coupled): (&'a Scene, &Coupled<'_>),
+        layout: &'a Layout,
+        workers: &'a Workers,
+        multipliers: Multipliers,
+    ) -> Self {
+        let connections = coupled.connections.iter();
+        Self {
+            scene,
+            layout,
+            workers,
+            multipliers,
+            signals: connections.map(|one| layout.variable_of(one)).collect(),
+            sizes: vec![0.0; layout.variables()],
+        }
+    }
+
     fn run(&mut self, state: &mut InitialState) -> Result<(), RunError> {
         let (scene, layout) = (self.scene, self.layout);
         let mut system = System::new(layout, Unknowns::ends(layout));
@@ -93,11 +119,10 @@ impl Search<'_> {
                 Multipliers::Held => change_of_signals(scene, layout, &mut system)?,
                 Multipliers::Free => {
                     let solver = solver.get_or_insert_with(|| {
-                        let (pattern, values, _) = system.level_equation(Level::Acceleration);
-                        state.border = redundancy::find(layout, pattern, values);
+                        state.border = border_of(layout, &mut system);
                         let unknowns: Vec<_> =
                             (0..layout.rows.len()).map(|row| row..row + 1).collect();
-                        LinearSolver::bordered(pattern, &state.border, &unknowns)
+                        LinearSolver::bordered(system.pattern(), &state.border, &unknowns)
                     });
                     change_of_all(scene, layout, &mut system, solver)?
                 }
@@ -120,13 +145,16 @@ impl Search<'_> {
 
     fn linearise(
         &self,
-        state: &InitialState,
+        state: &mut InitialState,
         outputs: &[Vec<f64>],
         system: &mut System,
     ) -> Result<(), RunError> {
         let (layout, t) = (self.layout, self.scene.t_start);
         let columns = responses::columns(t, layout, self.workers, state, outputs)
             .map_err(|error| refuse_start(self.scene, error))?;
+        if layout.level == Level::Acceleration {
+            state.responses = responses::of_accelerations(layout, outputs, &columns);
+        }
         let used = |number: &usize| !system.unknowns().columns(*number).is_empty();
         let numbers = (0..layout.inputs.len()).filter(used);
         let columns: Vec<_> = numbers.map(|number| columns[number].clone()).collect();
