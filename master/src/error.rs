@@ -7,6 +7,7 @@ use linchpin_proto::version::Incompatible;
 use crate::connection::{ExitMessage, StartError};
 use crate::methods::Unreadable;
 use crate::reading::SceneErrors;
+use crate::workers::NotRecovered;
 
 /// Why a run could not start or had to stop.
 #[derive(Debug, thiserror::Error)]
@@ -20,6 +21,26 @@ pub enum RunError {
     /// A state belongs to another run.
     #[error("cannot go on from this state: {0}; go on with the scene that wrote it")]
     OtherRun(String),
+    /// The state of a worker cannot leave its process.
+    #[error(
+        "subsystem \"{subsystem}\" at t = {t} s: its state cannot be exported: {source}", t = time(*t)
+    )]
+    NotExported {
+        /// Name in the scene.
+        subsystem: String,
+        /// The macro point.
+        t: f64,
+        /// What the call said.
+        source: Box<CallError>,
+    },
+    /// A worker cannot go on from a state.
+    #[error("subsystem \"{subsystem}\" cannot go on from this state: {source}")]
+    NotImported {
+        /// Name in the scene.
+        subsystem: String,
+        /// What the call said.
+        source: Box<CallError>,
+    },
     /// A worker could not be started or reached.
     #[error("subsystem \"{subsystem}\": {source}")]
     Start {
@@ -52,6 +73,19 @@ pub enum RunError {
         source: Box<CallError>,
         /// What its process left behind, if known.
         exit_message: ExitMessage,
+    },
+    /// A worker was lost, and no other one could take its place.
+    #[error(
+        "{lost}\n  no other worker could take its place in {attempts} attempt{}: {because}",
+        if *attempts == 1 { "" } else { "s" }
+    )]
+    NotRecovered {
+        /// The loss.
+        lost: Box<RunError>,
+        /// How often it was tried.
+        attempts: usize,
+        /// What stood against the last attempt.
+        because: Box<NotRecovered>,
     },
     /// A worker refuses what connected signals are at the start.
     #[error(

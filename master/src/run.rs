@@ -2,8 +2,10 @@
 //!
 //! * [`crate::macro_step`]: one macro step;
 //! * [`settings`]: the constants that decide about its steps;
-//! * [`state`]: what a run is at a macro point, as a value.
+//! * [`state`]: what a run is at a macro point, as a value;
+//! * [`checkpoint`]: the same together with the states of its workers, from which a run goes on.
 
+pub mod checkpoint;
 pub mod settings;
 pub mod state;
 

@@ -36,6 +36,18 @@ pub trait Contract: Send + Sync {
         request: &ExchangeRequest,
         reply: &mut ExchangeReply,
     ) -> Result<(), CallError>;
+    /// The committed state as bytes.
+    fn export_state(&self, _request: &ExportStateRequest) -> Result<ExportStateReply, CallError> {
+        Err(CallError::Unimplemented {
+            call: "ExportState",
+        })
+    }
+    /// Makes an exported state the committed one.
+    fn import_state(&self, _request: &ImportStateRequest) -> Result<ImportStateReply, CallError> {
+        Err(CallError::Unimplemented {
+            call: "ImportState",
+        })
+    }
     /// The instances that live there.
     fn list_instances(
         &self,
@@ -104,6 +116,12 @@ pub enum CallError {
     /// The worker answered that it cannot do it.
     #[error("{}", .0.message)]
     Failed(Failure),
+    /// The worker does not know the instance: it was never made, was terminated, or ended with its worker or its lease.
+    #[error("{message}")]
+    NoInstance {
+        /// What the worker said.
+        message: String,
+    },
     /// The worker does not offer this call.
     #[error("the worker does not offer {call}")]
     Unimplemented {
@@ -124,6 +142,9 @@ pub enum CallError {
         /// What the transport said.
         reason: String,
     },
+    /// Somebody asked the run to stop.
+    #[error("the run was interrupted")]
+    Interrupted,
     /// The reply to another request.
     #[error(
         "the reply to {call} is that of {what} {found}, asked was {what} {expected}: the worker, or something on the way to it, \
@@ -147,7 +168,32 @@ pub enum CallError {
     },
 }
 
+/// The field of a request that names the instance.
+pub(crate) const INSTANCE: &str = "instance";
+
 impl CallError {
+    /// That there is no such instance here.
+    pub fn no_instance(instance: u64) -> Self {
+        Self::NoInstance {
+            message: format!("there is no instance {instance:#x} here; Initialize makes one"),
+        }
+    }
+
+    /// Whether the worker, or what it knew of the run, is gone: another worker may go on from a state that was kept.
+    pub fn is_loss(&self) -> bool {
+        match self {
+            Self::Lost { .. }
+            | Self::Deadline { .. }
+            | Self::Unreachable { .. }
+            | Self::NoInstance { .. } => true,
+            // In the answer to an exchange there is no status.
+            Self::Failed(failure) => {
+                failure.severity() == Severity::Misuse && failure.field.as_deref() == Some(INSTANCE)
+            }
+            Self::Unimplemented { .. } | Self::Misplaced { .. } | Self::Interrupted => false,
+        }
+    }
+
     /// Whether the worker says that a smaller step may help.
     pub fn is_recoverable(&self) -> bool {
         matches!(self, Self::Failed(failure) if failure.severity() == Severity::Recoverable)
@@ -182,6 +228,22 @@ impl Failure {
             severity: Severity::Fatal.into(),
             message: message.into(),
             ..Self::default()
+        }
+    }
+}
+
+impl Contacts {
+    /// What contacts did that go on from a state of another instance, which did `earlier`: what belongs to the state is counted on there,
+    /// what does not is added up.
+    #[must_use]
+    pub fn behind(self, earlier: Self) -> Self {
+        Self {
+            residual: self.residual.max(earlier.residual),
+            problems: self.problems + earlier.problems,
+            robust: self.robust + earlier.robust,
+            ambiguous: self.ambiguous + earlier.ambiguous,
+            jams: self.jams + earlier.jams,
+            ..self
         }
     }
 }

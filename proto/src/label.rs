@@ -71,6 +71,8 @@ requests!(
     StepRequest: |own| Some(own.sequence),
     PerturbedStepRequest: |own| Some(own.sequence),
     ExchangeRequest: |own| Some(own.sequence),
+    ImportStateRequest: |own| Some(own.sequence),
+    ExportStateRequest: |_| None,
     EvaluateRequest: |_| None,
     TerminateRequest: |_| None,
 );
@@ -99,6 +101,7 @@ replies!(
     RestoreReply,
     StepReply,
     PerturbedStepReply,
+    ImportStateReply,
 );
 
 macro_rules! replies_without_sequence {
@@ -118,7 +121,7 @@ macro_rules! replies_without_sequence {
     };
 }
 
-replies_without_sequence!(EvaluateReply, TerminateReply);
+replies_without_sequence!(EvaluateReply, TerminateReply, ExportStateReply);
 
 impl Labelled for ExchangeReply {
     fn label(&self) -> Label {

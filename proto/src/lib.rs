@@ -2,6 +2,7 @@
 //!
 //! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
+//! * [`exported`]: states that have left their process;
 //! * [`exchange`]: what the parts of an exchange must keep to;
 //! * [`joint_load`]: the conditions of joints and the loads that they put on markers;
 //! * [`label`]: which request a reply belongs to;
@@ -14,6 +15,7 @@
 
 pub mod contract;
 pub mod exchange;
+pub mod exported;
 pub mod joint_load;
 pub mod label;
 pub mod polynomial;

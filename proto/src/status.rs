@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use tonic::{Code, Status};
 use tonic_types::{ErrorDetails, StatusExt};
 
-use crate::contract::CallError;
+use crate::contract::{CallError, INSTANCE};
 use crate::v1::{Failure, Severity};
 
 /// Domain of the error details.
@@ -23,10 +23,16 @@ const LONGEST_TEXT: usize = 256;
 pub fn to_status(error: &CallError) -> Status {
     match error {
         CallError::Failed(failure) => from_failure(failure),
+        CallError::NoInstance { message } => {
+            let field = HashMap::from([("field".to_owned(), INSTANCE.to_owned())]);
+            let misuse = Severity::Misuse.as_str_name();
+            let details = ErrorDetails::with_error_info(misuse, DOMAIN, field);
+            Status::with_error_details(Code::NotFound, message, details)
+        }
         CallError::Unimplemented { call } => {
             Status::unimplemented(format!("{call} is not offered"))
         }
-        CallError::Unreachable { .. } | CallError::Lost { .. } => {
+        CallError::Unreachable { .. } | CallError::Lost { .. } | CallError::Interrupted => {
             Status::unavailable(error.to_string())
         }
         CallError::Deadline { .. } => Status::deadline_exceeded(error.to_string()),
@@ -91,6 +97,12 @@ pub fn to_error(call: &'static str, status: &Status) -> CallError {
         .get_details_error_info()
         .filter(|info| info.domain == DOMAIN);
     let metadata = info.map(|info| info.metadata).unwrap_or_default();
+    let is_instance = metadata.get("field").is_some_and(|field| field == INSTANCE);
+    if status.code() == Code::NotFound && is_instance {
+        return CallError::NoInstance {
+            message: reason(status),
+        };
+    }
     let number = |key| metadata.get(key).and_then(|text| text.parse().ok());
     CallError::Failed(Failure {
         severity: severity.into(),
@@ -122,6 +134,18 @@ mod tests {
         };
         let error = CallError::Failed(failure);
         assert_eq!(to_error("Step", &to_status(&error)), error);
+    }
+
+    #[test]
+    fn a_lost_instance_survives_the_wire() {
+        let lost = CallError::no_instance(0x2a);
+        let status = to_status(&lost);
+        assert_eq!(status.code(), Code::NotFound);
+        assert!(status.message().contains("no instance 0x2a"));
+        assert_eq!(to_error("Exchange", &status), lost);
+        // A snapshot that is gone is another thing.
+        let gone = to_error("Restore", &Status::not_found("no snapshot 3"));
+        assert!(!gone.is_loss() && lost.is_loss());
     }
 
     #[test]

@@ -79,6 +79,13 @@ impl Workshop {
         fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
     }
 
+    /// Removes the folders for sockets that a master has left that was killed.
+    pub fn clear(&self) {
+        for folder in leftovers::socket_folders(self.path()) {
+            fs::remove_dir_all(folder).unwrap();
+        }
+    }
+
     /// `linchpin` with `arguments`, to be run in this folder.
     pub fn command<S: AsRef<str>>(&self, arguments: &[S]) -> Command {
         let mut command = Command::new(program());

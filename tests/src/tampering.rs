@@ -134,6 +134,20 @@ impl Worker for Tampering {
         passed(&request, |request| self.contract.restore(request))
     }
 
+    async fn export_state(
+        &self,
+        request: Request<v1::ExportStateRequest>,
+    ) -> Result<Response<v1::ExportStateReply>, Status> {
+        passed(&request, |request| self.contract.export_state(request))
+    }
+
+    async fn import_state(
+        &self,
+        request: Request<v1::ImportStateRequest>,
+    ) -> Result<Response<v1::ImportStateReply>, Status> {
+        passed(&request, |request| self.contract.import_state(request))
+    }
+
     async fn perturbed_step(
         &self,
         request: Request<v1::PerturbedStepRequest>,

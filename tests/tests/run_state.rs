@@ -1,11 +1,12 @@
-//! A run that is written at a macro point and read back into memory of its own goes on bit by bit, with every method.
+//! A run that is written at a macro point and read back goes on bit by bit, with every method: all memory of master and workers is new.
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use linchpin::connect::{Connector, Place};
+use linchpin_master::run::checkpoint::Checkpoint;
 use linchpin_master::scene::{Override, Scene, parse};
 use linchpin_master::setup::Options;
-use linchpin_master::{CoSimulation, RunError, RunState};
+use linchpin_master::{CoSimulation, RunError};
 
 const OSCILLATOR: &str = include_str!("../../scenes/oscillator.toml");
 const DOUBLE_PENDULUM: &str = include_str!("../../scenes/double-pendulum.toml");
@@ -53,9 +54,9 @@ fn finish(mut simulation: CoSimulation) -> Vec<Vec<u64>> {
     rows
 }
 
-fn through_bytes(state: &RunState) -> RunState {
+fn through_bytes(state: &Checkpoint) -> Checkpoint {
     let bytes = postcard::to_stdvec(state).unwrap();
-    let read: RunState = postcard::from_bytes(&bytes).unwrap();
+    let read: Checkpoint = postcard::from_bytes(&bytes).unwrap();
     assert_eq!(&read, state);
     read
 }
@@ -66,9 +67,10 @@ fn stopped_and_resumed(scene: &Scene, steps: usize) -> Vec<Vec<u64>> {
     for _ in 0..steps {
         assert!(stopped.macro_step().unwrap());
     }
-    let state = through_bytes(&stopped.state());
+    let checkpoint = through_bytes(&stopped.checkpoint().unwrap());
+    drop(stopped);
     let mut resumed = start(scene);
-    resumed.resume(state, stopped).unwrap();
+    resumed.resume(checkpoint).unwrap();
     assert_eq!(resumed.steps_done(), steps);
     finish(resumed)
 }
@@ -235,9 +237,8 @@ fn the_state_of_another_method_is_refused() {
         &["coupling.method=hermite", "coupling.macro_step=1e-2"],
     );
     let explicit = scene(OSCILLATOR, &["coupling.method=explicit", "coupling.mu=10H"]);
-    let stopped = start(&hermite);
-    let state = stopped.state();
-    let error = start(&explicit).resume(state, stopped).unwrap_err();
+    let checkpoint = start(&hermite).checkpoint().unwrap();
+    let error = start(&explicit).resume(checkpoint).unwrap_err();
     assert!(matches!(error, RunError::Resume(_)), "{error}");
     assert!(
         error
@@ -250,18 +251,16 @@ fn the_state_of_another_method_is_refused() {
 /// Of equal columns or not: other subsystems, joints, recorded outputs, steps that vary.
 #[test]
 fn the_state_of_another_scene_is_refused() {
-    let stopped = start(&scene(OSCILLATOR, &[]));
-    let state = stopped.state();
-    let error = start(&scene(DOUBLE_PENDULUM, &[])).resume(state, stopped);
+    let checkpoint = start(&scene(OSCILLATOR, &[])).checkpoint().unwrap();
+    let error = start(&scene(DOUBLE_PENDULUM, &[])).resume(checkpoint);
     let told = error.unwrap_err().to_string();
     assert!(
         told.contains("\"link.lambda\"") && told.contains("\"hinge.lambda.x\""),
         "{told}"
     );
     let variable = scene(OSCILLATOR, &["coupling.tolerance=1e-5"]);
-    let stopped = start(&variable);
-    let state = stopped.state();
-    let error = start(&scene(OSCILLATOR, &[])).resume(state, stopped);
+    let checkpoint = start(&variable).checkpoint().unwrap();
+    let error = start(&scene(OSCILLATOR, &[])).resume(checkpoint);
     let told = error.unwrap_err().to_string();
     assert!(
         told.contains("\"step\"") && told.contains("\"error_estimate\""),

@@ -97,11 +97,7 @@ impl Host {
     ) -> Result<T, CallError> {
         let slot = self.table().get(&number).cloned();
         let Some(slot) = slot else {
-            return Err(Failure::misuse(
-                "instance",
-                format!("there is no instance {number:#x} here; Initialize makes one"),
-            )
-            .into());
+            return Err(CallError::no_instance(number));
         };
         Ok(without_panic(|| slot.call(call))?)
     }
@@ -208,6 +204,22 @@ impl Contract for Host {
         Ok(reply.to(request))
     }
 
+    fn export_state(
+        &self,
+        request: &v1::ExportStateRequest,
+    ) -> Result<v1::ExportStateReply, CallError> {
+        let reply = self.with_instance(request.instance, |instance| instance.export())?;
+        Ok(reply.to(request))
+    }
+
+    fn import_state(
+        &self,
+        request: &v1::ImportStateRequest,
+    ) -> Result<v1::ImportStateReply, CallError> {
+        let reply = self.with_instance(request.instance, |instance| instance.import(request))?;
+        Ok(reply.to(request))
+    }
+
     fn step(&self, request: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
         let reply = self.with_instance(request.instance, |instance| instance.step(request))?;
         Ok(reply.to(request))
@@ -274,7 +286,7 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         exchange: true,
         repeats_step_sequence: own.repeats_step_sequence,
         max_input_degree: Some(MAX_NODES as u32 - 1),
-        exportable_snapshot: false,
+        exportable_snapshot: own.exportable_snapshot,
         joint_loads: own.joint_loads,
         directional_derivatives: own.directional_derivatives,
         interior_outputs: true,

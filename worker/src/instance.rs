@@ -17,11 +17,14 @@ pub(crate) use signals::{Signals, find};
 
 /// A subsystem that is being driven by a master.
 ///
-/// It has one state: that of the start, of the last Step or Restore, or of the last advance of an exchange, which can be
+/// It has one state: that of the start, of the last Step, Restore or ImportState, or of the last advance of an exchange, which can be
 /// taken back. A call that fails leaves it as it was.
 pub struct Instance {
     motion: Motion,
     snapshots: Snapshots,
+    model: String,
+    /// Whether its states can leave the process.
+    exports: bool,
     initialized: v1::InitializeReply,
     sequence: u64,
     /// The last request, encoded.
@@ -35,6 +38,7 @@ enum Answer {
     Initialize,
     Snapshot(Result<v1::SnapshotReply, Failure>),
     Restore(Result<v1::RestoreReply, Failure>),
+    ImportState(Result<v1::ImportStateReply, Failure>),
     Step(Result<v1::StepReply, Failure>),
     PerturbedStep(Result<v1::PerturbedStepReply, Failure>),
     Exchange(Result<(), Failure>),
@@ -56,6 +60,10 @@ impl Instance {
         Ok(Self {
             motion: Motion::new(subsystem, signals, model, request)?,
             snapshots: Snapshots::new(most_snapshots),
+            model: model.name.clone(),
+            exports: model
+                .capabilities
+                .is_some_and(|own| own.exportable_snapshot),
             initialized,
             sequence: request.sequence,
             asked: Vec::new(),
@@ -115,6 +123,57 @@ impl Instance {
             .map(|()| v1::RestoreReply::default());
         self.settle(request, Answer::Restore(answer.clone()));
         answer
+    }
+
+    /// The committed state as bytes.
+    pub(crate) fn export(&self) -> Result<v1::ExportStateReply, Failure> {
+        let writer = self.writer()?;
+        let state = self.motion.committed().bytes().to_vec();
+        Ok(v1::ExportStateReply {
+            state: Some(v1::ExportedState::sealed(&self.model, writer, state)),
+            ..v1::ExportStateReply::default()
+        })
+    }
+
+    pub(crate) fn import(
+        &mut self,
+        request: &v1::ImportStateRequest,
+    ) -> Result<v1::ImportStateReply, Failure> {
+        if self.is_repeated(request.sequence)? {
+            return match &self.answer {
+                Answer::ImportState(answer) => self
+                    .same("ImportState", request)
+                    .and_then(|()| answer.clone()),
+                other => Err(other.belongs_not_to("ImportState")),
+            };
+        }
+        let imported = self.take_exported(request.state.as_ref());
+        let answer = imported.map(|()| v1::ImportStateReply::default());
+        self.settle(request, Answer::ImportState(answer.clone()));
+        answer
+    }
+
+    fn take_exported(&mut self, state: Option<&v1::ExportedState>) -> Result<(), Failure> {
+        let writer = self.writer()?;
+        let state = state.ok_or_else(|| {
+            Failure::misuse("state", "there is no state; send one of ExportState")
+        })?;
+        state.check(&self.model, writer)?;
+        self.motion.import(&state.state)
+    }
+
+    /// Program and version, if its states can leave the process.
+    fn writer(&self) -> Result<&'static str, Failure> {
+        match self.exports {
+            true => Ok(concat!("linchpin ", env!("CARGO_PKG_VERSION"))),
+            false => Err(Failure::misuse(
+                "state",
+                format!(
+                    "the states of model \"{}\" cannot leave their process: its capabilities do not say exportable_snapshot",
+                    self.model
+                ),
+            )),
+        }
     }
 
     pub(crate) fn step(&mut self, request: &v1::StepRequest) -> Result<v1::StepReply, Failure> {
@@ -254,6 +313,7 @@ impl Answer {
             Self::Initialize => "Initialize",
             Self::Snapshot(_) => "Snapshot",
             Self::Restore(_) => "Restore",
+            Self::ImportState(_) => "ImportState",
             Self::Step(_) => "Step",
             Self::PerturbedStep(_) => "PerturbedStep",
             Self::Exchange(_) => "Exchange",

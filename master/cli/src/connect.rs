@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
-    ConnectOptions, Connection, Direct, Launcher, StartError, Threaded, TimeLimits, UnaryTurns,
-    connect, new_runtime, start,
+    ConnectOptions, Connection, Direct, Launcher, Renewable, StartError, Threaded, TimeLimits,
+    UnaryTurns, connect, new_runtime, start,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::ground::GROUND;
@@ -31,7 +31,7 @@ pub struct Connector {
     place: Place,
     interrupt: Interrupt,
     runtime: OnceLock<Arc<Runtime>>,
-    launcher: OnceLock<Launcher>,
+    launcher: OnceLock<Arc<Launcher>>,
 }
 
 impl Connector {
@@ -67,21 +67,27 @@ impl Connector {
             }
             Served::BuiltIn => {
                 let command = [this_program()?, "worker".into(), "--exit-with-stdin".into()];
-                start(
-                    self.launcher()?,
-                    &subsystem.name,
-                    &command,
-                    &self.way(scene, subsystem)?,
-                )
+                self.start(scene, subsystem, command.into())
             }
-            Served::Command(command) => start(
-                self.launcher()?,
-                &subsystem.name,
-                command,
-                &self.way(scene, subsystem)?,
-            ),
-            Served::Address(address) => Ok(connect(address, &self.way(scene, subsystem)?)?),
+            Served::Command(command) => self.start(scene, subsystem, command.clone()),
+            Served::Address(address) => {
+                let (address, way) = (address.clone(), self.way(scene, subsystem)?);
+                let reach = move || Ok(connect(&address, &way)?);
+                Ok(Box::new(Renewable::new(reach)?))
+            }
         }
+    }
+
+    fn start(
+        &self,
+        scene: &Scene,
+        subsystem: &Subsystem,
+        command: Vec<String>,
+    ) -> Result<Box<dyn Connection>, StartError> {
+        let launcher = Arc::clone(self.launcher()?);
+        let (name, way) = (subsystem.name.clone(), self.way(scene, subsystem)?);
+        let begin = move || start(&launcher, &name, &command, &way);
+        Ok(Box::new(Renewable::new(begin)?))
     }
 
     fn in_this_process(&self, subsystem: &Subsystem) -> Box<dyn Connection> {
@@ -116,8 +122,8 @@ impl Connector {
         made(&self.runtime, || Ok(new_runtime()?)).cloned()
     }
 
-    fn launcher(&self) -> Result<&Launcher, StartError> {
-        made(&self.launcher, || Ok(Launcher::new()?))
+    fn launcher(&self) -> Result<&Arc<Launcher>, StartError> {
+        made(&self.launcher, || Ok(Arc::new(Launcher::new()?)))
     }
 }
 

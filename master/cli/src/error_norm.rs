@@ -69,12 +69,12 @@ impl ErrorMeter {
         }
     }
 
-    /// Takes the row of one macro point.
-    pub fn add(&mut self, row: &Row) {
-        let t = row.values()[0];
+    /// Takes the values of the row of one macro point.
+    pub fn add(&mut self, values: &[f64]) {
+        let t = values[0];
         for (place, _, quantity, error) in &mut self.columns {
             if let Some(exact) = self.closed_form.value(*quantity, t) {
-                error.add(row.values()[*place], exact);
+                error.add(values[*place], exact);
             }
         }
     }

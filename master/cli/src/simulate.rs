@@ -2,6 +2,7 @@
 
 use linchpin_master::results::Mechanism;
 use linchpin_master::results::{Row, Statistics};
+use linchpin_master::run::checkpoint::Checkpoint;
 use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
 use linchpin_master::workers::Subsystem;
@@ -31,6 +32,25 @@ pub trait Recorder {
 
     /// After every macro step, recorded or not: the time that is reached.
     fn progress(&mut self, _t: f64) {}
+
+    /// Asked before [`Recorder::begin`]: the checkpoint that the run goes on from, if it does. Then the row of the start is not recorded.
+    fn resume(&mut self) -> Option<Checkpoint> {
+        None
+    }
+
+    /// Asked after every macro step: whether a checkpoint is due.
+    fn wants_checkpoint(&mut self) -> bool {
+        false
+    }
+
+    /// The checkpoint that is due, or why there is none.
+    fn checkpoint(
+        &mut self,
+        _t: f64,
+        _checkpoint: Result<Checkpoint, RunError>,
+    ) -> Result<(), Self::Error> {
+        Ok(())
+    }
 
     /// The run stops early: what it has cost so far.
     fn stop(&mut self, _statistics: Statistics) {}
@@ -94,14 +114,26 @@ fn to_its_end<R: Recorder>(
     if let Some(mechanism) = simulation.mechanism() {
         taken(recorder.mechanism(mechanism))?;
     }
+    let resumed = recorder.resume();
+    let is_resumed = resumed.is_some();
+    if let Some(checkpoint) = resumed {
+        let resumed = simulation.resume(checkpoint);
+        resumed.map_err(|error| stopped(interrupt, simulation.t(), error))?;
+    }
     taken(recorder.begin(simulation.row()))?;
-    taken(recorder.record(simulation.row()))?;
+    if !is_resumed {
+        taken(recorder.record(simulation.row()))?;
+    }
     while simulation
         .macro_step()
         .map_err(|error| stopped(interrupt, simulation.t(), error))?
     {
         record(scene, simulation, recorder)?;
         recorder.progress(simulation.t());
+        if recorder.wants_checkpoint() && !simulation.is_finished() {
+            let checkpoint = simulation.checkpoint();
+            taken(recorder.checkpoint(simulation.t(), checkpoint))?;
+        }
         if let Some(story) = story {
             story.go_on(simulation);
         }

@@ -111,9 +111,7 @@ pub(super) async fn unless<T>(
     tokio::select! {
         biased;
         answer = answer => Ok(answer),
-        () = interrupt.requested() => Err(CallError::Lost {
-            reason: "the run was interrupted".into(),
-        }),
+        () = interrupt.requested() => Err(CallError::Interrupted),
     }
 }
 
@@ -161,6 +159,18 @@ impl Contract for Grpc {
     fn restore(&self, request: &RestoreRequest) -> Result<RestoreReply, CallError> {
         self.call("Restore", request, async |mut client, request| {
             client.restore(request).await
+        })
+    }
+
+    fn export_state(&self, request: &ExportStateRequest) -> Result<ExportStateReply, CallError> {
+        self.call("ExportState", request, async |mut client, request| {
+            client.export_state(request).await
+        })
+    }
+
+    fn import_state(&self, request: &ImportStateRequest) -> Result<ImportStateReply, CallError> {
+        self.call("ImportState", request, async |mut client, request| {
+            client.import_state(request).await
         })
     }
 

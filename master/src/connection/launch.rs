@@ -83,6 +83,7 @@ impl Launcher {
     /// placeholder, `--listen ADDRESS` is appended.
     pub fn start(&self, name: &str, command: &[String]) -> Result<WorkerProcess, LaunchError> {
         let (program, arguments) = command.split_first().ok_or(LaunchError::NoProgram)?;
+        let name = self.unused(name);
         let socket = self.folder.path().join(format!("{name}.sock"));
         if socket.as_os_str().len() > LONGEST_PATH {
             return Err(LaunchError::PathTooLong { path: socket });
@@ -116,6 +117,19 @@ impl Launcher {
             address,
             log,
         })
+    }
+}
+
+impl Launcher {
+    /// The name of a subsystem, with a number behind it if a worker of that name was started before.
+    fn unused(&self, name: &str) -> String {
+        let is_used = |name: &str| self.folder.path().join(format!("{name}.log")).exists();
+        if !is_used(name) {
+            return name.to_owned();
+        }
+        let names = (2_u64..).map(|number| format!("{name}-{number}"));
+        let mut unused = names.skip_while(|name| is_used(name));
+        unused.next().unwrap_or_default()
     }
 }
 

@@ -7,6 +7,7 @@ mod direct;
 mod exit_message;
 mod grpc;
 mod launch;
+mod renewable;
 mod stream;
 mod threaded;
 mod time_limits;
@@ -27,6 +28,7 @@ pub use direct::Direct;
 pub use exit_message::ExitMessage;
 pub use grpc::{Grpc, new_runtime};
 pub use launch::{LaunchError, Launcher, WorkerProcess};
+pub use renewable::Renewable;
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
 pub use time_limits::TimeLimits;
@@ -121,6 +123,9 @@ pub enum StartError {
     /// It does not answer.
     #[error("{0}{advice}", advice = advice(.0))]
     Call(#[from] CallError),
+    /// It lives in the process of its master.
+    #[error("a worker in the process of its master cannot be made anew")]
+    SameProcess,
     /// The connections of this master cannot be driven.
     #[error("cannot set up the connections: {0}")]
     Runtime(#[from] std::io::Error),
@@ -135,7 +140,7 @@ fn advice(error: &CallError) -> &'static str {
         CallError::Lost { .. } | CallError::Unimplemented { .. } | CallError::Misplaced { .. } => {
             "; is it a worker of the contract linchpin.v1?"
         }
-        CallError::Failed(_) => "",
+        CallError::Failed(_) | CallError::NoInstance { .. } | CallError::Interrupted => "",
     }
 }
 

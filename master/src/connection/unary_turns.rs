@@ -87,6 +87,27 @@ impl<C: Contract> Contract for UnaryTurns<C> {
         self.calls.restore(request)
     }
 
+    fn export_state(&self, request: &ExportStateRequest) -> Result<ExportStateReply, CallError> {
+        let mut driven = self.instance.lock().unwrap_or_else(PoisonError::into_inner);
+        Turn::new(&self.calls, &mut driven.place).go_to_committed()?;
+        self.calls.export_state(request)
+    }
+
+    fn import_state(&self, request: &ImportStateRequest) -> Result<ImportStateReply, CallError> {
+        let mut driven = self.instance.lock().unwrap_or_else(PoisonError::into_inner);
+        let own = ImportStateRequest {
+            sequence: driven.place.next(),
+            ..request.clone()
+        };
+        let reply = self.calls.import_state(&own)?;
+        driven.place.forget_states();
+        driven.last = None;
+        Ok(ImportStateReply {
+            sequence: Some(request.sequence),
+            ..reply
+        })
+    }
+
     fn step(&self, request: &StepRequest) -> Result<StepReply, CallError> {
         self.calls.step(request)
     }

@@ -3,6 +3,7 @@
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
+use super::StartError;
 use super::exit_message::ExitMessage;
 
 /// A worker that one subsystem of a scene lives in.
@@ -19,6 +20,19 @@ pub trait Connection: Send {
     /// What a worker that this master started left behind when its connection was lost; empty if unknown.
     fn exit_message(&self) -> ExitMessage {
         ExitMessage::default()
+    }
+
+    /// Whether [`Connection::renew`] can make another worker.
+    fn is_renewable(&self) -> bool {
+        false
+    }
+
+    /// Gives the worker up and makes another one in its place, without any instance.
+    ///
+    /// # Errors
+    /// It cannot be started or reached; [`StartError::SameProcess`] where there is nothing to make anew.
+    fn renew(&mut self) -> Result<(), StartError> {
+        Err(StartError::SameProcess)
     }
 
     /// Which way the exchange takes, for the summary.

@@ -28,8 +28,8 @@ pub use outcome::{Outcome, Passes};
 pub use redundancy::Redundancy;
 pub use row::{Drawn, OfStep, Row};
 pub use statistics::{
-    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Rejections, Statistics,
-    StepStatistics, SubsystemStatistics,
+    ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Recoveries, Rejections,
+    Statistics, StepStatistics, SubsystemStatistics,
 };
 pub use step_degrees::StepDegrees;
 pub(crate) use units::units;

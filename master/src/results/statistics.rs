@@ -209,6 +209,26 @@ pub struct SubsystemStatistics {
     pub unresolved: Option<f64>,
     /// What its contacts did; absent where a solver has none.
     pub contacts: Option<ContactStatistics>,
+    /// How often another worker took the place of a lost one.
+    pub recoveries: Recoveries,
+}
+
+/// Workers that took the place of lost ones.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Recoveries {
+    /// How many.
+    pub workers: u64,
+    /// Macro steps that they repeated to stand where the lost ones stood.
+    pub repeated_steps: u64,
+    /// Time in s that this took, without pauses before it.
+    pub time: f64,
+}
+
+impl Recoveries {
+    pub(crate) fn count(&mut self, time: Duration) {
+        self.workers += 1;
+        self.time += time.as_secs_f64();
+    }
 }
 
 /// What the contacts inside a subsystem did.

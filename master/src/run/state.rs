@@ -12,7 +12,7 @@ use crate::macro_step::{Corrector, CorrectorState, PointJacobian, look_ahead};
 use crate::methods::Saved;
 use crate::policies::degree::{self, AutomaticDegrees};
 use crate::policies::{columns, iteration, step_size};
-use crate::results::{Guard, Integrations, Statistics};
+use crate::results::{Guard, Integrations, Recoveries, Statistics};
 use crate::time::{MacroStep, TimePlan};
 
 /// All that a run knows at a macro point, but for the states of the solvers, which are their workers', and for what its scene and the
@@ -43,6 +43,7 @@ struct WorkerState {
     /// Outputs at the macro point.
     outputs: Vec<f64>,
     exchanges: u64,
+    recoveries: Recoveries,
     asked: Integrations,
     /// What it reported so far, in the encoding of the contract.
     work: Vec<u8>,
@@ -54,6 +55,7 @@ impl CoSimulation {
         let workers = self.run.workers.subsystems.iter().map(|own| WorkerState {
             outputs: own.outputs.clone(),
             exchanges: own.exchanges,
+            recoveries: own.recoveries(),
             asked: own.asked,
             work: own.work.encode_to_vec(),
         });
@@ -87,18 +89,22 @@ impl CoSimulation {
             .collect()
     }
 
-    /// Goes on from `state` in place of the start of the scene, with the workers of `stopped`, which stands at the macro point of that
-    /// state. The look-ahead over the next macro step is asked for anew, in an exchange of its own; all results are those that `stopped`
-    /// would have had, bit by bit.
+    /// That a state is one of this run.
     ///
     /// # Errors
-    /// The state belongs to another scene or another method, and what ends a run.
-    pub fn resume(&mut self, state: RunState, stopped: Self) -> Result<(), RunError> {
+    /// It belongs to another scene or another method.
+    pub(super) fn check(&self, state: &RunState) -> Result<(), RunError> {
         self.run.method.state().compare(&state.method)?;
         let names = self.names();
-        if state.names != names {
-            return Err(RunError::OtherRun(first_difference(&state.names, &names)));
+        match state.names == names {
+            true => Ok(()),
+            false => Err(RunError::OtherRun(first_difference(&state.names, &names))),
         }
+    }
+
+    /// Goes on from `state` in place of the start of the scene. The workers stand at the macro point of that state. The look-ahead over
+    /// the next macro step is asked for anew, in an exchange of its own.
+    pub(super) fn go_on(&mut self, state: RunState) -> Result<(), RunError> {
         let works = state
             .workers
             .iter()
@@ -109,13 +115,12 @@ impl CoSimulation {
             ))
         })?;
         self.run.method.resume(&state.method)?;
-        self.run.workers = stopped.run.workers;
         let subsystems = self.run.workers.subsystems.iter_mut();
         for (subsystem, (state, work)) in subsystems.zip(state.workers.into_iter().zip(works)) {
             subsystem.outputs = state.outputs;
             subsystem.exchanges = state.exchanges;
             subsystem.asked = state.asked;
-            subsystem.work = work;
+            subsystem.go_on(work, state.recoveries);
         }
         self.run.plan = state.plan;
         if let (Some(own), Some(state)) = (&mut self.run.corrector, state.corrector) {

@@ -17,6 +17,7 @@ mod output;
 mod remedy;
 mod resolve;
 mod resolved;
+mod run;
 mod spectrum;
 mod stability_rules;
 mod step_control;

@@ -7,16 +7,17 @@ use super::coupling;
 use super::joint;
 use super::monolithic;
 use super::output;
-use super::resolved::{RunSettings, Subsystem};
+use super::resolved::Subsystem;
+use super::run;
 use super::subsystem;
 use super::sweeps;
 use super::whole::Scene;
 use crate::reading::error::{SceneError, SceneErrors};
 use crate::reading::error_kind::SceneErrorKind;
-use crate::reading::key::{FINITE, Key, Range, Takes};
+use crate::reading::key::{FINITE, Key, Takes};
 use crate::reading::lists::sections;
 use crate::reading::names::Registry;
-use crate::reading::reader::{Field, Problems, Section, collect, given};
+use crate::reading::reader::{Problems, Section, collect, given};
 use crate::reading::written::Written;
 
 /// The tables of a scene file.
@@ -39,7 +40,7 @@ pub const SCENE_KEYS: [Key; 11] = [
     Key::new("output", Takes::Table(|| output::KEYS.to_vec()))
         .default("its defaults")
         .means("what is recorded and drawn"),
-    Key::new("run", Takes::Table(|| RUN.to_vec()))
+    Key::new("run", Takes::Table(|| run::KEYS.to_vec()))
         .default("its defaults")
         .means("how long workers may take"),
     Key::new("case", Takes::Tables(|| sweeps::CASE.to_vec()))
@@ -66,24 +67,6 @@ const HEAD: [Key; 3] = [
         .required("t_end = 1.0")
         .means("end, s"),
 ];
-const RUN: [Key; 2] = [
-    Key::new("deadline", Takes::Number(TIME_LIMIT))
-        .default_number(DEADLINE)
-        .means("longest time for one answer of a worker, s"),
-    Key::new("start_timeout", Takes::Number(TIME_LIMIT))
-        .default_number(START_TIMEOUT)
-        .means("longest time for a worker to start or to be reached, s"),
-];
-const DEADLINE: f64 = 30.0;
-const START_TIMEOUT: f64 = 10.0;
-/// Longer than any sensible wait, and short enough for every clock.
-const TIME_LIMIT: Range = Range {
-    words: "greater than 0 s and at most 1e6 s",
-    above: 0.0,
-    most: 1e6,
-    ..FINITE
-};
-
 /// The scene, or everything that is wrong with it, together with the mistakes that were found before.
 pub(super) fn resolve(written: Written, earlier: Vec<SceneError>) -> Result<Scene, SceneErrors> {
     let written = Arc::new(written);
@@ -138,7 +121,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         connection::read(table, &subsystem_names, problems)
     });
     let output = output::read(output, &subsystem_names, duration, problems);
-    let run = read_run(run, problems);
+    let run = run::read(run, problems);
     let case_tables = sections(cases, problems);
     Registry::collect("case", &case_tables, None, problems);
     let cases = collect(&case_tables, |table| sweeps::read_case(table, problems));
@@ -190,21 +173,5 @@ fn read_head(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Head>
         name: name?.to_owned(),
         t_start,
         t_end,
-    })
-}
-
-fn read_run(field: Option<Field<'_>>, problems: &mut Problems<'_>) -> Option<RunSettings> {
-    let [deadline, start_timeout] = match field {
-        Some(field) => field.section(problems)?.read(&RUN, problems),
-        None => [None, None],
-    };
-    let mut seconds = |field: Option<Field<'_>>, default| {
-        field.map_or(Some(default), |field| field.number(problems))
-    };
-    let deadline = seconds(deadline, DEADLINE);
-    let start_timeout = seconds(start_timeout, START_TIMEOUT);
-    Some(RunSettings {
-        deadline: deadline?,
-        start_timeout: start_timeout?,
     })
 }

@@ -160,6 +160,14 @@ pub struct RunSettings {
     pub deadline: f64,
     /// Longest time until a started worker listens in s; default 10.
     pub start_timeout: f64,
+    /// How often a worker that is lost in an exchange is made anew; default 3.
+    pub recoveries: usize,
+    /// Macro steps after which states of workers are exported; default 100.
+    pub export_every: usize,
+    /// Time between two checkpoints in s; default 30.
+    pub checkpoint_every: f64,
+    /// Macro steps between two checkpoints in place of a time.
+    pub checkpoint_steps: Option<usize>,
 }
 
 /// A variant of the scene; one command runs all of them side by side.

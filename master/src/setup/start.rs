@@ -60,6 +60,7 @@ impl CoSimulation {
             let capabilities = model.capabilities.unwrap_or_default();
             subsystem.repeats_steps = capabilities.repeats_step_sequence;
             subsystem.offers_derivatives = capabilities.directional_derivatives;
+            subsystem.exports_states = capabilities.exportable_snapshot;
             if let Err(error) = subsystem.initialize(requests[number].clone()) {
                 refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
             }
@@ -242,7 +243,7 @@ pub(super) fn connect_one(
     })?;
     let (name, model) = (&subsystem.name, &subsystem.model);
     tracing::debug!(subsystem = name, model, "connected");
-    Ok(Subsystem::new(&subsystem.name, connection))
+    Ok(Subsystem::new(&subsystem.name, connection, &scene.run))
 }
 
 fn names(scene: &Scene) -> Vec<&str> {

@@ -7,20 +7,20 @@
 //! * `views`: what they have answered, as values;
 //! * `exchange`: all requests out, all answers in;
 //! * `samples`: results at fixed times inside a macro step;
-//! * `recovery`: exchanges after which a shorter macro step may follow;
+//! * `varying`: exchanges after which a shorter macro step may follow;
 //! * `substeps`: an advance that a worker cannot take at once.
 
 mod all;
 mod exchange;
 mod look;
-mod recovery;
 mod requests;
 mod samples;
 mod substeps;
 mod subsystem;
+mod varying;
 mod views;
 
 pub use all::Workers;
 pub(crate) use look::Look;
 pub(crate) use samples::Samples;
-pub use subsystem::{Ahead, Subsystem};
+pub use subsystem::{Ahead, NotRecovered, Subsystem};

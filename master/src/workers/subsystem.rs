@@ -1,6 +1,7 @@
 //! One subsystem as the master sees it: a connection, the last messages, and outputs at the present macro point.
 
 pub(super) mod answer;
+mod recovery;
 mod request;
 #[cfg(test)]
 mod tests;
@@ -15,8 +16,12 @@ use linchpin_proto::version::PROTOCOL;
 use crate::connection::{Connection, ExitMessage};
 use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
+use crate::scene::RunSettings;
 use crate::system::Differentiation;
 use crate::time::MacroStep;
+use recovery::Recovery;
+
+pub use recovery::NotRecovered;
 
 /// How much of the inside of a step an answer tells.
 #[derive(Debug, Clone, Copy)]
@@ -48,6 +53,7 @@ pub struct Subsystem {
     model: String,
     instance: u64,
     sequence: u64,
+    recovery: Recovery,
     /// What the next exchange sends.
     pub(crate) request: v1::ExchangeRequest,
     /// The memory of an advance that the request does without.
@@ -70,6 +76,8 @@ pub struct Subsystem {
     pub(crate) repeats_steps: bool,
     /// Whether it offers directional derivatives.
     pub(crate) offers_derivatives: bool,
+    /// Whether its states can leave its process.
+    pub(crate) exports_states: bool,
     /// What the solver did so far.
     pub(crate) work: v1::Work,
     /// What it was asked for so far.
@@ -81,14 +89,14 @@ pub struct Subsystem {
 }
 
 impl Subsystem {
-    pub(crate) fn new(name: &str, connection: Box<dyn Connection>) -> Self {
+    pub(crate) fn new(name: &str, connection: Box<dyn Connection>, settings: &RunSettings) -> Self {
         Self {
             name: name.to_owned(),
             connection,
             model: String::new(),
-            // The master chooses the number; a random one does not meet those of other masters.
-            instance: RandomState::new().hash_one(name),
+            instance: random_number(name),
             sequence: 0,
+            recovery: Recovery::new(settings),
             request: v1::ExchangeRequest::default(),
             idle_advance: None,
             reply: v1::ExchangeReply::default(),
@@ -100,6 +108,7 @@ impl Subsystem {
             tolerance: None,
             repeats_steps: false,
             offers_derivatives: false,
+            exports_states: false,
             work: v1::Work::default(),
             asked: Integrations::default(),
             looks_ahead_for: Cause::Predictor,
@@ -130,6 +139,7 @@ impl Subsystem {
             time_in_solver: work.nanoseconds as f64 * 1e-9,
             unresolved,
             contacts: work.contacts.map(ContactStatistics::from),
+            recoveries: self.recovery.done,
         }
     }
 
@@ -178,17 +188,22 @@ impl Subsystem {
         self.integrated_names
             .clone_from(&request.integrated_outputs);
         let reply = self.connection.contract().initialize(&request)?;
+        self.recovery.begin(&request, self.exports_states);
         self.tolerance = reply.tolerance;
         Ok(())
     }
 
     /// Ends the instance and makes it anew.
     pub(crate) fn restart(&mut self, request: v1::InitializeRequest) -> Result<(), CallError> {
-        let terminate = v1::TerminateRequest {
+        self.terminate()?;
+        self.initialize(request)
+    }
+
+    fn terminate(&self) -> Result<(), CallError> {
+        let request = v1::TerminateRequest {
             instance: self.instance,
         };
-        self.connection.contract().terminate(&terminate)?;
-        self.initialize(request)
+        self.connection.contract().terminate(&request).map(drop)
     }
 
     /// Outputs `names` at `t` under constant inputs, by a call outside the macro step.
@@ -226,11 +241,21 @@ impl Subsystem {
     }
 
     pub(crate) fn post(&mut self, step: MacroStep) -> Result<(), RunError> {
+        self.label_request();
+        match self.connection.post(&self.request) {
+            Err(error) if error.is_loss() => {
+                self.recovery.unsent = Some(error);
+                Ok(())
+            }
+            posted => posted.map_err(|error| self.failed(error, step)),
+        }
+    }
+
+    /// Gives the next request its numbers.
+    fn label_request(&mut self) {
         self.sequence += 1;
         self.request.instance = self.instance;
         self.request.sequence = self.sequence;
-        let posted = self.connection.post(&self.request);
-        posted.map_err(|error| self.failed(error, step))
     }
 
     /// Takes the answer and checks that it is complete and finite. `step` is the macro step that is under way.
@@ -242,11 +267,18 @@ impl Subsystem {
     }
 
     fn receive(&mut self, step: MacroStep) -> Result<(), RunError> {
-        let collected = self.connection.collect(&mut self.reply);
-        collected.map_err(|error| self.failed(error, step))?;
+        let collected = match self.recovery.unsent.take() {
+            Some(unsent) => Err(unsent),
+            None => self.connection.collect(&mut self.reply),
+        };
+        match collected {
+            Err(error) if error.is_loss() => self.recover(error, step)?,
+            collected => collected.map_err(|error| self.failed(error, step))?,
+        }
         self.exchanges += 1;
         self.asked.count(&self.request, self.looks_ahead_for);
-        self.work += self.reply.work.unwrap_or_default();
+        self.work += self.recovery.whole(self.reply.work.unwrap_or_default());
+        self.remember_advance();
         Ok(())
     }
 
@@ -267,10 +299,12 @@ impl Subsystem {
 
 impl Drop for Subsystem {
     fn drop(&mut self) {
-        let request = v1::TerminateRequest {
-            instance: self.instance,
-        };
         // A worker that is gone needs no end of its instance.
-        let _ = self.connection.contract().terminate(&request);
+        let _ = self.terminate();
     }
+}
+
+/// A number for an instance. The master chooses it; a random one does not meet those of other masters.
+fn random_number(name: &str) -> u64 {
+    RandomState::new().hash_one(name)
 }

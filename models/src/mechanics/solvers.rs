@@ -58,6 +58,7 @@ pub fn kind(name: &str, description: &str, options: Vec<v1::Parameter>) -> v1::S
 pub fn capabilities() -> v1::Capabilities {
     v1::Capabilities {
         repeats_step_sequence: true,
+        exportable_snapshot: true,
         joint_loads: true,
         output_integrals: true,
         ..v1::Capabilities::default()

@@ -79,6 +79,11 @@ impl Running {
             .collect()
     }
 
+    /// Whether it has ended.
+    pub fn has_ended(&mut self) -> bool {
+        self.child.try_wait().unwrap().is_some()
+    }
+
     /// Ctrl-C at the terminal: SIGINT for the whole process group.
     pub fn press_ctrl_c(&self) {
         kill_process_group(Pid::from_child(&self.child), Signal::INT).unwrap();

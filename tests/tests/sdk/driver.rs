@@ -168,6 +168,8 @@ pub fn exchange(
 pub fn failure<T>(answer: Result<T, CallError>) -> Result<T, Failure> {
     answer.map_err(|error| match error {
         CallError::Failed(failure) => failure,
+        // What it is on an exchange stream.
+        CallError::NoInstance { message } => Failure::misuse("instance", message),
         other => panic!("{other}"),
     })
 }

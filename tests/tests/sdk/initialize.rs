@@ -73,7 +73,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             exchange: true,
             repeats_step_sequence,
             max_input_degree: Some(7),
-            exportable_snapshot: false,
+            exportable_snapshot: repeats_step_sequence,
             joint_loads: !without_joint_loads.contains(&model.name.as_str()),
             directional_derivatives: ["oscillator", "pi-controller"].contains(&model.name.as_str()),
             interior_outputs: true,

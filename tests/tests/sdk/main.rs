@@ -8,6 +8,7 @@ mod directions;
 mod driver;
 mod evaluations;
 mod exchange;
+mod exported_states;
 mod going_back;
 mod initialize;
 mod instances;

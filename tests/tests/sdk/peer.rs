@@ -206,6 +206,20 @@ impl Contract for Remote {
         self.grpc.restore(request)
     }
 
+    fn export_state(
+        &self,
+        request: &v1::ExportStateRequest,
+    ) -> Result<v1::ExportStateReply, CallError> {
+        self.grpc.export_state(request)
+    }
+
+    fn import_state(
+        &self,
+        request: &v1::ImportStateRequest,
+    ) -> Result<v1::ImportStateReply, CallError> {
+        self.grpc.import_state(request)
+    }
+
     fn step(&self, request: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
         self.grpc.step(request)
     }

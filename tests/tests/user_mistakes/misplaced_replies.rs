@@ -34,7 +34,12 @@ fn tampered(method: &str, tamper: Tamper, at: u64, more: &[&str]) -> (Workshop, 
     let address = Tampering::new(host, at, tamper).serve(&workshop);
     let served = format!("subsystem.mass2.address={address}");
     // Long enough for a busy machine to start a worker, and waited for only where a reply never comes.
-    let settings = ["--set", &served, "--set", "run.deadline=4"];
+    let settings = [
+        "--set",
+        &served,
+        "--set=run.deadline=4",
+        "--set=run.recoveries=0",
+    ];
     let outcome = workshop.run(&run(&[&settings[..], more].concat()));
     (workshop, outcome)
 }

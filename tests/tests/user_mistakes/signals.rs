@@ -38,7 +38,7 @@ fn send(pid: i32, signal: Signal) {
 #[test]
 fn a_worker_that_is_killed() {
     let workshop = long_scene();
-    let running = long_run(&workshop, &[]);
+    let running = long_run(&workshop, &["--set", "run.recoveries=0"]);
     send(worker(&running, "mass2"), Signal::KILL);
     let outcome = running.wait();
     outcome.fails(
@@ -57,7 +57,10 @@ fn a_worker_that_is_killed() {
 #[test]
 fn a_worker_that_is_stopped() {
     let workshop = long_scene();
-    let running = long_run(&workshop, &["--set", "run.deadline=0.5"]);
+    let running = long_run(
+        &workshop,
+        &["--set=run.deadline=0.5", "--set=run.recoveries=0"],
+    );
     send(worker(&running, "mass1"), Signal::STOP);
     let outcome = running.wait();
     outcome.fails(1, &["\"mass1\"", "t = ", "within 0.5 s", "run.deadline"]);
@@ -66,7 +69,13 @@ fn a_worker_that_is_stopped() {
 #[test]
 fn a_worker_that_is_killed_between_its_unary_calls() {
     let workshop = long_scene();
-    let running = long_run(&workshop, &["--set", "subsystem.mass2.calls=unary"]);
+    let running = long_run(
+        &workshop,
+        &[
+            "--set=subsystem.mass2.calls=unary",
+            "--set=run.recoveries=0",
+        ],
+    );
     send(worker(&running, "mass2"), Signal::KILL);
     running.wait().fails(1, &["\"mass2\"", "t = ", "signal: 9"]);
 }

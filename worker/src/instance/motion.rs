@@ -27,6 +27,11 @@ pub(super) struct Kept {
 }
 
 impl Kept {
+    /// The state itself.
+    pub(super) fn bytes(&self) -> &[u8] {
+        self.snapshot.bytes()
+    }
+
     /// Copies into memory that is already there.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.number = other.number;
@@ -195,6 +200,16 @@ impl Motion {
         self.committed.copy_from(kept);
         self.can_go_back = false;
         Ok(())
+    }
+
+    /// Makes a state that another instance has exported the committed one.
+    pub(super) fn import(&mut self, state: &[u8]) -> Result<(), Failure> {
+        self.newest += 1;
+        let imported = Kept {
+            number: self.newest,
+            snapshot: Snapshot::from_bytes(state.to_vec()),
+        };
+        self.restore(&imported)
     }
 
     fn go_to(&mut self, base: Base) -> Result<(), Failure> {

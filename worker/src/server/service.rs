@@ -78,6 +78,20 @@ impl Worker for Service {
         self.answer(request, |contract, request| contract.restore(request))
     }
 
+    async fn export_state(
+        &self,
+        request: Request<v1::ExportStateRequest>,
+    ) -> Result<Response<v1::ExportStateReply>, Status> {
+        self.answer(request, |contract, request| contract.export_state(request))
+    }
+
+    async fn import_state(
+        &self,
+        request: Request<v1::ImportStateRequest>,
+    ) -> Result<Response<v1::ImportStateReply>, Status> {
+        self.answer(request, |contract, request| contract.import_state(request))
+    }
+
     async fn step(
         &self,
         request: Request<v1::StepRequest>,

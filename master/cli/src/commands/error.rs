@@ -10,6 +10,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
+use crate::output::checkpoint::ResumeError;
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
 use crate::spectra::FailedCurve;
@@ -42,6 +43,9 @@ pub enum CommandError {
         /// Why.
         source: Box<CommandError>,
     },
+    /// A run does not go on from a checkpoint.
+    #[error(transparent)]
+    Resume(#[from] ResumeError),
     /// The standard output takes nothing more.
     #[error("cannot write to the standard output: {0}")]
     Output(std::io::Error),
@@ -211,6 +215,7 @@ impl CommandError {
             Self::Case { source, .. } => source.exit_code(),
             _ if self.is_interrupt() => interrupt::received().map_or(1, Request::exit_code),
             Self::NothingToStudy { .. }
+            | Self::Resume(ResumeError::NoCheckpoint { .. } | ResumeError::OtherRun { .. })
             | Self::NothingToAnimate
             | Self::NoScene { .. }
             | Self::NoSettings { .. }

@@ -12,6 +12,7 @@ use super::common::{OutputArguments, SceneArguments, case_folders, print, warn};
 use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
+use crate::output::checkpoint::{CheckpointFile, RunIdentity, has_checkpoint, remove_checkpoints};
 use crate::output::{Ending, OutputFolder, Program, StatusFile};
 use crate::results::{About, RunRecorder, RunReport, draw};
 use crate::simulate::simulate;
@@ -23,6 +24,7 @@ use crate::simulate::simulate;
   linchpin run scenes/oscillator.toml --out /tmp/fine --set coupling.macro_step=1e-4
   linchpin run scenes/oscillator.toml --in-process --quiet
   linchpin run scenes/double-pendulum.toml --animate
+  linchpin run scenes/double-pendulum.toml --resume         after its process was ended
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
 DIR/results.svg and DIR/results.png. A scene with cases runs them one after the other, each in a folder of its own, and
@@ -43,6 +45,11 @@ pub struct Arguments {
     /// With --in-process: each built-in model on a thread of its own
     #[arg(long, requires = "in_process")]
     threads: bool,
+
+    /// Go on from the checkpoint that a run of the same scene and settings left in the folder; of a scene with cases, those without
+    /// a checkpoint begin at their start
+    #[arg(long)]
+    resume: bool,
 
     /// No plots
     #[arg(long)]
@@ -174,7 +181,11 @@ impl Job<'_> {
         let stale = [&stale[..], std::slice::from_ref(&page)].concat();
         let is_first = !status.is_there();
         let shows_progress = output.shows_progress();
-        let mut recorder = RunRecorder::new(scene, folder.path(), stale, status, shows_progress)?;
+        let identity = self.identity(scene, case);
+        let resumed = self.resumed(&identity, folder.path())?;
+        let run = (identity, resumed);
+        let mut recorder =
+            RunRecorder::new(scene, folder.path(), stale, status, run, shows_progress)?;
         let options = Options {
             record_markers: self.arguments.animate,
             ..Options::default()
@@ -195,13 +206,42 @@ impl Job<'_> {
         };
         let has_begun = recorder.has_begun();
         let (report, status) = recorder.into_report(statistics);
-        let outcome = outcome.and_then(|()| self.tell(scene, case, &report, &page));
+        let outcome = outcome.and_then(|()| {
+            remove_checkpoints(folder.path()).map_err(CommandError::unwritable(folder.path()))?;
+            self.tell(scene, case, &report, &page)
+        });
         // Results of an earlier run keep what was said of them.
         if has_begun || is_first {
             let told = status.end(&Ending::of(&outcome), Some(report.results()));
             return Ok((report, outcome.and(told)));
         }
         Ok((report, outcome))
+    }
+
+    fn identity(&self, scene: &Scene, case: Option<&str>) -> RunIdentity {
+        let overrides = self.arguments.scene.set.iter();
+        RunIdentity {
+            version: self.program.linchpin.to_owned(),
+            scene_text: scene.text().to_owned(),
+            overrides: overrides.map(ToString::to_string).collect(),
+            case: case.map(str::to_owned),
+            animate: self.arguments.animate,
+        }
+    }
+
+    /// The checkpoint that the run goes on from, if that was asked for.
+    fn resumed(
+        &self,
+        run: &RunIdentity,
+        folder: &Path,
+    ) -> Result<Option<CheckpointFile>, CommandError> {
+        let begins = !self.arguments.resume || (run.case.is_some() && !has_checkpoint(folder));
+        if begins {
+            return Ok(None);
+        }
+        let file = CheckpointFile::read(folder)?;
+        file.check(run, folder)?;
+        Ok(Some(file))
     }
 
     /// The page and the summary of a run that came to its end.

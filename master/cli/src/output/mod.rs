@@ -1,10 +1,12 @@
 //! The folder that a command writes to: whose it is, and what `run.json` says of the command.
 //!
+//! * [`checkpoint`]: what a run needs to go on when its process has ended;
 //! * [`folder`]: one command at a time writes to a folder;
 //! * [`program`]: which program writes, where and since when;
 //! * [`status`]: `run.json`, from the first moment to the end;
 //! * [`study`]: that of a study.
 
+pub mod checkpoint;
 pub mod folder;
 pub mod program;
 pub mod status;

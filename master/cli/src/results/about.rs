@@ -23,6 +23,8 @@ pub struct About {
     method: Method,
     /// Absent for methods without a corrector, which leave nothing to decide.
     settings: Option<Settings>,
+    /// The macro point at which this process went on from a checkpoint; absent if it began at the start.
+    pub resumed_at: Option<f64>,
     /// The model of every subsystem; empty before all workers have answered.
     pub models: Vec<SubsystemModel>,
     /// The columns of the table; empty before its first row.
@@ -64,6 +66,7 @@ impl About {
             exchanged_degree: scene.coupling.exchanged_degree,
             method: scene.coupling.method,
             settings: settings(scene),
+            resumed_at: None,
             models: Vec::new(),
             columns: Vec::new(),
         }

@@ -1,6 +1,7 @@
 //! What a run leaves behind: table, report, picture.
 
 mod about;
+mod checkpoints;
 mod figure;
 mod impacts;
 mod recorder;

@@ -1,15 +1,20 @@
 //! Takes the rows of a run: into the table, the error meter and the traces of the picture.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
+use linchpin_master::RunError;
 use linchpin_master::results::Mechanism;
 use linchpin_master::results::{Row, Statistics};
+use linchpin_master::run::checkpoint::Checkpoint;
 use linchpin_master::scene::Scene;
 use linchpin_master::workers::Subsystem;
 
 use super::about::{About, ColumnUnit, SubsystemModel};
+use super::checkpoints::Checkpoints;
 use super::figure::traces;
 use super::table::Table;
 use super::{Impacts, RunReport, Trace};
@@ -19,6 +24,7 @@ use crate::commands::CommandError;
 use crate::commands::common::remove_stale;
 use crate::error_norm::ErrorMeter;
 use crate::output::StatusFile;
+use crate::output::checkpoint::{CheckpointFile, ResumeError, RunIdentity, remove_checkpoints};
 use crate::progress;
 use crate::simulate::Recorder;
 
@@ -36,6 +42,9 @@ pub struct RunRecorder {
     traces: Vec<Trace>,
     impacts: Option<Impacts>,
     motion: Option<Motion>,
+    checkpoints: Checkpoints,
+    /// Where the run goes on.
+    resumed: Option<CheckpointFile>,
     bar: ProgressBar,
     started: Instant,
 }
@@ -63,6 +72,7 @@ impl RunRecorder {
         folder: &Path,
         stale: Vec<PathBuf>,
         status: StatusFile<About>,
+        (run, resumed): (RunIdentity, Option<CheckpointFile>),
         shows_progress: bool,
     ) -> Result<Self, CommandError> {
         if !status.is_there() {
@@ -79,6 +89,8 @@ impl RunRecorder {
             traces: Vec::new(),
             impacts: None,
             motion: None,
+            checkpoints: Checkpoints::new(folder.to_owned(), run, &scene.run),
+            resumed,
             bar: progress::bar(BAR_LENGTH, BAR, shows_progress),
             started: Instant::now(),
         })
@@ -127,11 +139,36 @@ impl RunRecorder {
         });
         self.status.about.columns = columns.collect();
         // The file of an earlier run says how that ended, which is not so for the table that is begun.
+        self.status.about.resumed_at = self.resumed.as_ref().map(|resumed| resumed.t);
         self.status.running()?;
-        let table = Table::create(&self.folder.join(TABLE))?;
+        let path = self.folder.join(TABLE);
+        if let Some(resumed) = self.resumed.take() {
+            let recorded = recorded_rows(&path, resumed.table_bytes)?;
+            recorded.iter().for_each(|values| self.remember(values));
+            self.table = Some(Table::go_on(&path, resumed.table_bytes)?);
+            return Ok(());
+        }
+        remove_checkpoints(&self.folder).map_err(CommandError::unwritable(&self.folder))?;
+        let table = Table::create(&path)?;
         table.add(row.columns())?;
         self.table = Some(table);
         Ok(())
+    }
+
+    /// Takes the values of a row for all but the table.
+    fn remember(&mut self, values: &[f64]) {
+        for trace in &mut self.traces {
+            trace.record(values);
+        }
+        if let Some(impacts) = &mut self.impacts {
+            impacts.record(values);
+        }
+        if let Some(errors) = &mut self.errors {
+            errors.add(values);
+        }
+        if let Some(motion) = &mut self.motion {
+            motion.record(values);
+        }
     }
 }
 
@@ -159,23 +196,33 @@ impl Recorder for RunRecorder {
         self.status.about.models = models.collect();
     }
 
+    fn resume(&mut self) -> Option<Checkpoint> {
+        let resumed = self.resumed.as_ref()?;
+        Some(resumed.checkpoint.clone())
+    }
+
+    fn wants_checkpoint(&mut self) -> bool {
+        self.table.is_some() && self.checkpoints.is_due()
+    }
+
+    fn checkpoint(
+        &mut self,
+        t: f64,
+        checkpoint: Result<Checkpoint, RunError>,
+    ) -> Result<(), CommandError> {
+        if let Some(table) = &self.table {
+            let bytes = table.sync()?;
+            self.checkpoints.write(t, bytes, checkpoint);
+        }
+        Ok(())
+    }
+
     fn stop(&mut self, statistics: Statistics) {
         self.statistics = Some(statistics);
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
-        for trace in &mut self.traces {
-            trace.record(row.values());
-        }
-        if let Some(impacts) = &mut self.impacts {
-            impacts.record(row.values());
-        }
-        if let Some(errors) = &mut self.errors {
-            errors.add(row);
-        }
-        if let Some(motion) = &mut self.motion {
-            motion.record(row.values());
-        }
+        self.remember(row.values());
         match &self.table {
             // Shortest text that reads back to the same bits.
             Some(table) => table.add(row.values()),
@@ -194,4 +241,28 @@ impl Recorder for RunRecorder {
         self.bar
             .set_message(format!("{t:.4} s ({speed:.3} x real time)"));
     }
+}
+
+/// The rows in the first bytes of a table.
+fn recorded_rows(path: &Path, bytes: u64) -> Result<Vec<Vec<f64>>, ResumeError> {
+    let read = || {
+        let file = File::open(path)?;
+        let found = file.metadata()?.len();
+        if found < bytes {
+            return Ok(Err(ResumeError::ShortTable {
+                path: path.to_owned(),
+                found,
+                expected: bytes,
+            }));
+        }
+        let mut table = csv::Reader::from_reader(file.take(bytes));
+        table
+            .deserialize()
+            .collect::<Result<_, csv::Error>>()
+            .map(Ok)
+    };
+    read().map_err(|source| ResumeError::Table {
+        path: path.to_owned(),
+        source,
+    })?
 }

@@ -1,7 +1,7 @@
 //! `results.csv`: whole rows, there within a second whatever happens to the process.
 
-use std::fs::File;
-use std::io::{self, Write};
+use std::fs::{File, OpenOptions};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -47,9 +47,28 @@ impl Table {
     /// [`CommandError::Unwritable`]
     pub fn create(path: &Path) -> Result<Self, CommandError> {
         let file = File::create(path).map_err(CommandError::unwritable(path))?;
+        Ok(Self::behind(file, 0, path))
+    }
+
+    /// The table at a path, of which the first `whole` bytes stay; what is behind them is cut off.
+    ///
+    /// # Errors
+    /// [`CommandError::Unwritable`]
+    pub fn go_on(path: &Path, whole: u64) -> Result<Self, CommandError> {
+        let open = || {
+            let mut file = OpenOptions::new().write(true).open(path)?;
+            file.set_len(whole)?;
+            file.seek(SeekFrom::End(0))?;
+            Ok(file)
+        };
+        let file = open().map_err(CommandError::unwritable(path))?;
+        Ok(Self::behind(file, whole, path))
+    }
+
+    fn behind(file: File, whole: u64, path: &Path) -> Self {
         let rows = Arc::new(Mutex::new(Rows {
             file,
-            whole: 0,
+            whole,
             waiting: csv::Writer::from_writer(Vec::new()),
             failed: None,
             is_broken: false,
@@ -61,12 +80,25 @@ impl Table {
                 lock(&flushed).flush();
             }
         });
-        Ok(Self {
+        Self {
             path: path.to_owned(),
             rows,
             stop: Some(stop),
             flusher: Some(flusher),
-        })
+        }
+    }
+
+    /// Writes all rows down to the disk; the bytes that they have there.
+    ///
+    /// # Errors
+    /// [`CommandError::Table`] that some cannot be written, [`CommandError::Unwritable`].
+    pub fn sync(&self) -> Result<u64, CommandError> {
+        let mut rows = lock(&self.rows);
+        rows.flush();
+        self.told(&mut rows)?;
+        let synced = rows.file.sync_data();
+        synced.map_err(CommandError::unwritable(&self.path))?;
+        Ok(rows.whole)
     }
 
     /// Adds a row.

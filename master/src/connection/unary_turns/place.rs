@@ -33,6 +33,13 @@ impl Place {
         }
     }
 
+    /// The instance has a state of which no snapshot was taken; the snapshots of others can go.
+    pub fn forget_states(&mut self) {
+        self.spare.extend(self.committed.take());
+        self.spare.extend(self.previous.take());
+        self.stands_at = None;
+    }
+
     /// The sequence number of the next call.
     pub fn next(&mut self) -> u64 {
         self.sequence += 1;

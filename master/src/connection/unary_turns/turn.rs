@@ -242,6 +242,14 @@ impl<'a, C: Contract> Turn<'a, C> {
         Ok(())
     }
 
+    /// Lets the instance have its committed state, which is that of the start before the first exchange.
+    pub fn go_to_committed(&mut self) -> Result<(), CallError> {
+        match self.place.committed() {
+            Some(committed) => self.go_to(committed),
+            None => Ok(()),
+        }
+    }
+
     fn count(&mut self, work: Option<Work>) {
         self.work += work.unwrap_or_default();
     }

@@ -10,7 +10,8 @@ use linchpin_proto::v1::{self, value::Kind};
 use crate::connection::Direct;
 use crate::scene::{Scene, Subsystem, parse};
 use crate::setup::Options;
-use crate::{CoSimulation, RunState};
+use crate::CoSimulation;
+use crate::run::checkpoint::Checkpoint;
 
 const SCENE: &str = r#"
 [scene]
@@ -104,6 +105,22 @@ impl Contract for Mass {
         missing("Restore")
     }
 
+    fn export_state(&self, _: &v1::ExportStateRequest) -> Result<v1::ExportStateReply, CallError> {
+        let state = self.0.lock().unwrap().map(f64::to_le_bytes).concat();
+        Ok(v1::ExportStateReply {
+            state: Some(v1::ExportedState::sealed("mass", "test", state)),
+            ..v1::ExportStateReply::default()
+        })
+    }
+
+    fn import_state(&self, request: &v1::ImportStateRequest) -> Result<v1::ImportStateReply, CallError> {
+        let state = &request.state.as_ref().unwrap().state;
+        let (numbers, _) = state.as_chunks();
+        let numbers: Vec<f64> = numbers.iter().copied().map(f64::from_le_bytes).collect();
+        self.0.lock().unwrap().copy_from_slice(&numbers);
+        Ok(v1::ImportStateReply::default())
+    }
+
     fn step(&self, _: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
         missing("Step")
     }
@@ -193,10 +210,10 @@ fn it_is_written_and_read_back_as_any_other() {
     for _ in 0..12 {
         assert!(stopped.macro_step().unwrap());
     }
-    let bytes = postcard::to_stdvec(&stopped.state()).unwrap();
-    let state: RunState = postcard::from_bytes(&bytes).unwrap();
+    let bytes = postcard::to_stdvec(&stopped.checkpoint().unwrap()).unwrap();
+    let checkpoint: Checkpoint = postcard::from_bytes(&bytes).unwrap();
     let mut resumed = start();
-    resumed.resume(state, stopped).unwrap();
+    resumed.resume(checkpoint).unwrap();
     assert_eq!(finish(resumed), whole[12..]);
 }
 

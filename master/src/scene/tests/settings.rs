@@ -56,6 +56,10 @@ fn the_example_resolves_to_what_it_says() {
     let run = RunSettings {
         deadline: 30.0,
         start_timeout: 10.0,
+        recoveries: 3,
+        export_every: 100,
+        checkpoint_every: 30.0,
+        checkpoint_steps: None,
     };
     assert_eq!(scene.run, run);
     assert_eq!((scene.converge, scene.stability), (None, None));
@@ -269,7 +273,8 @@ fn joints_outputs_and_run_settings_are_optional_in_detail() {
         ("b = \"mass2\"", "b = \"mass1\""),
         (
             "every = 1 ",
-            "every = 7\nvariables = [\"mass1.v\", \"mass2.energy\"]\n[run]\ndeadline = 2 ",
+            "every = 7\nvariables = [\"mass1.v\", \"mass2.energy\"]\n[run]\nrecoveries = 0\nexport_every = 7\n\
+             checkpoint_every = 0\ncheckpoint_steps = 40\ndeadline = 2 ",
         ),
     ]);
     let a = Side {
@@ -282,7 +287,15 @@ fn joints_outputs_and_run_settings_are_optional_in_detail() {
     assert_eq!(scene.output.every, 7);
     let variables = vec!["mass1.v".to_owned(), "mass2.energy".to_owned()];
     assert_eq!(scene.output.variables, Some(variables));
-    assert_eq!((scene.run.deadline, scene.run.start_timeout), (2.0, 10.0));
+    let run = RunSettings {
+        deadline: 2.0,
+        recoveries: 0,
+        export_every: 7,
+        checkpoint_every: 0.0,
+        checkpoint_steps: Some(40),
+        ..RunSettings::default()
+    };
+    assert_eq!(scene.run, run);
 }
 
 #[test]

@@ -59,6 +59,7 @@ impl Model for NonsmoothModel {
             states: Vec::new(),
             capabilities: Some(v1::Capabilities {
                 repeats_step_sequence: true,
+                exportable_snapshot: true,
                 ..v1::Capabilities::default()
             }),
         })
