@@ -242,6 +242,18 @@ pub enum RunError {
 }
 
 impl RunError {
+    /// Whether the connection to a worker broke. Before the first macro step a run may simply begin again.
+    pub fn is_broken_connection(&self) -> bool {
+        let is_lost = |error: &CallError| matches!(error, CallError::Lost { .. });
+        match self {
+            Self::Worker { source, .. } | Self::NotImported { source, .. } => is_lost(source),
+            Self::Start { source, .. } => {
+                matches!(&**source, StartError::Call(error) if is_lost(error))
+            }
+            _ => false,
+        }
+    }
+
     /// Whether a shorter macro step from the same macro point may do without this failure of a look-ahead.
     pub(crate) fn may_vanish_with_a_shorter_step(&self) -> bool {
         match self {

@@ -79,9 +79,9 @@ pub fn simulate<R: Recorder>(
     options: &Options,
     recorder: &mut R,
 ) -> Result<Statistics, SimulateError<R::Error>> {
-    let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
     let interrupt = connector.interrupt();
-    let mut simulation = CoSimulation::start(scene, &mut connect, options)
+    let resumed = recorder.resume();
+    let mut simulation = start(scene, connector, options, resumed.as_ref())
         .map_err(|error| stopped(interrupt, scene.t_start, error))?;
     recorder.workers(simulation.subsystems());
     let mut story = Story::begin(scene);
@@ -94,6 +94,37 @@ pub fn simulate<R: Recorder>(
         story.end(&simulation);
     }
     Ok(simulation.statistics())
+}
+
+/// Starts the run, at its start or where it was stopped, once more where a worker is lost meanwhile: nothing is computed yet that would be lost with it.
+fn start(
+    scene: &Scene,
+    connector: &Connector,
+    options: &Options,
+    resumed: Option<&Checkpoint>,
+) -> Result<CoSimulation, RunError> {
+    let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
+    let mut begin = || -> Result<CoSimulation, RunError> {
+        let mut simulation = CoSimulation::start(scene, &mut connect, options)?;
+        if let Some(checkpoint) = resumed {
+            simulation.resume(checkpoint.clone())?;
+        }
+        Ok(simulation)
+    };
+    let mut attempts = 0;
+    loop {
+        match begin() {
+            Err(error)
+                if error.is_broken_connection()
+                    && attempts < scene.run.recoveries
+                    && !connector.interrupt().is_requested() =>
+            {
+                attempts += 1;
+                tracing::warn!(attempt = attempts, "the run is started once more: {error}");
+            }
+            started => return started,
+        }
+    }
 }
 
 /// An interrupt makes calls under way fail, and it is the reason that counts.
@@ -114,14 +145,8 @@ fn to_its_end<R: Recorder>(
     if let Some(mechanism) = simulation.mechanism() {
         taken(recorder.mechanism(mechanism))?;
     }
-    let resumed = recorder.resume();
-    let is_resumed = resumed.is_some();
-    if let Some(checkpoint) = resumed {
-        let resumed = simulation.resume(checkpoint);
-        resumed.map_err(|error| stopped(interrupt, simulation.t(), error))?;
-    }
     taken(recorder.begin(simulation.row()))?;
-    if !is_resumed {
+    if simulation.steps_done() == 0 {
         taken(recorder.record(simulation.row()))?;
     }
     while simulation

@@ -23,7 +23,7 @@ use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, Outputs, Sizes, System};
 use crate::time::at_start;
-use crate::workers::{Samples, Subsystem, Workers};
+use crate::workers::{RecoverySettings, Samples, Subsystem, Workers};
 
 impl CoSimulation {
     /// Connects to all workers, initialises them, closes the joints and looks ahead over the first macro step.
@@ -241,9 +241,13 @@ pub(super) fn connect_one(
         subsystem: subsystem.name.clone(),
         source: Box::new(source),
     })?;
+    let recovery = RecoverySettings {
+        attempts: scene.run.recoveries,
+        export_every: scene.run.export_every as u64,
+    };
     let (name, model) = (&subsystem.name, &subsystem.model);
     tracing::debug!(subsystem = name, model, "connected");
-    Ok(Subsystem::new(&subsystem.name, connection, &scene.run))
+    Ok(Subsystem::new(&subsystem.name, connection, recovery))
 }
 
 fn names(scene: &Scene) -> Vec<&str> {

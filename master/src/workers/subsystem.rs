@@ -16,12 +16,11 @@ use linchpin_proto::version::PROTOCOL;
 use crate::connection::{Connection, ExitMessage};
 use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
-use crate::scene::RunSettings;
 use crate::system::Differentiation;
 use crate::time::MacroStep;
 use recovery::Recovery;
 
-pub use recovery::NotRecovered;
+pub use recovery::{NotRecovered, RecoverySettings};
 
 /// How much of the inside of a step an answer tells.
 #[derive(Debug, Clone, Copy)]
@@ -89,7 +88,7 @@ pub struct Subsystem {
 }
 
 impl Subsystem {
-    pub(crate) fn new(name: &str, connection: Box<dyn Connection>, settings: &RunSettings) -> Self {
+    pub(crate) fn new(name: &str, connection: Box<dyn Connection>, settings: RecoverySettings) -> Self {
         Self {
             name: name.to_owned(),
             connection,

@@ -83,6 +83,7 @@ pub fn free_port() -> u16 {
 pub fn all() -> Vec<Series> {
     let plain = scene(&[LONG]);
     let unary = scene(&[LONG, "subsystem.*.calls=unary"]);
+    let unprotected = scene(&[LONG, "run.recoveries=0"]);
     let ports = [free_port(), free_port()];
     let tcp_workers = ports.map(|port| {
         let address = format!("127.0.0.1:{port}");
@@ -99,6 +100,8 @@ pub fn all() -> Vec<Series> {
         Running::start(&plain, Place::InProcess, Vec::new()).series("macro step, in process"),
         Running::start(&plain, Place::Processes, Vec::new())
             .series("macro step, 2 processes, stream, Unix sockets"),
+        Running::start(&unprotected, Place::Processes, Vec::new())
+            .series("the same without recovery"),
         Running::start(&tcp, Place::Processes, tcp_workers.into())
             .series("macro step, 2 processes, stream, TCP"),
         Running::start(&unary, Place::Processes, Vec::new())

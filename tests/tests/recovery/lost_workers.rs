@@ -137,9 +137,9 @@ fn a_worker_at_an_address_may_come_back_there() {
 /// The instance is gone, the worker and the connection are not.
 #[test]
 fn an_instance_that_somebody_ends_is_made_anew() {
-    for calls in ["automatic", "unary"] {
+    for (calls, end) in [("automatic", LONG), ("unary", "scene.t_end=3")] {
         let workshop = workshop(OSCILLATOR);
-        let expected = undisturbed(&workshop, &[LONG]);
+        let expected = undisturbed(&workshop, &[end]);
         let peer = Peer::scripted(&workshop, |script| script);
         let served = format!(
             "address = \"{}\"\ncalls = \"{calls}\"\nmodel = \"oscillator\"  ",
@@ -149,8 +149,8 @@ fn an_instance_that_somebody_ends_is_made_anew() {
             "scene.toml",
             OSCILLATOR.replacen("model = \"oscillator\"  ", &served, 1),
         );
-        let mut running = workshop.start(&run("out", &[LONG]));
-        wait_for_bytes(&mut running, &workshop, "out", 1 << 17);
+        let mut running = workshop.start(&run("out", &[end]));
+        wait_for_bytes(&mut running, &workshop, "out", expected.len() as u64 / 4);
         let instances = |more: &[&str]| {
             let words = [&["instances", peer.address()], more].concat();
             let listed = workshop.command(&words).output().unwrap();

@@ -13,7 +13,6 @@ use super::{Subsystem, random_number};
 use crate::connection::StartError;
 use crate::error::RunError;
 use crate::results::Recoveries;
-use crate::scene::RunSettings;
 use crate::time::MacroStep;
 
 pub(super) use journal::Journal;
@@ -23,12 +22,18 @@ const FIRST_PAUSE: Duration = Duration::from_millis(100);
 const LENGTHENING: u32 = 3;
 const LONGEST_PAUSE: Duration = Duration::from_secs(1);
 
+/// What is done against the loss of a worker.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct RecoverySettings {
+    /// How often another worker may be made for one exchange; 0: a loss ends the run.
+    pub attempts: usize,
+    /// Macro steps between two exports of its state.
+    pub export_every: u64,
+}
+
 /// What another worker needs to take the place of a lost one.
 pub(super) struct Recovery {
-    /// Attempts for one exchange.
-    attempts: usize,
-    /// Macro steps between two exports.
-    export_every: u64,
+    settings: RecoverySettings,
     /// Whether the worker's states can leave its process.
     exports: bool,
     /// How the instance was made.
@@ -75,10 +80,9 @@ pub enum NotRecovered {
 }
 
 impl Recovery {
-    pub fn new(settings: &RunSettings) -> Self {
+    pub fn new(settings: RecoverySettings) -> Self {
         Self {
-            attempts: settings.recoveries,
-            export_every: settings.export_every as u64,
+            settings,
             exports: false,
             initialize: v1::InitializeRequest::default(),
             state: None,
@@ -113,16 +117,16 @@ impl Subsystem {
         let Some(advance) = &mut self.request.advance else {
             return;
         };
-        if self.recovery.attempts == 0 || !self.connection.is_renewable() {
+        if self.recovery.settings.attempts == 0 || !self.connection.is_renewable() {
             return;
         }
         let subsystem = &self.name;
         if let Err(error) = self.recovery.journal.push(advance) {
             tracing::warn!(subsystem, %error, "its inputs cannot be kept in TMPDIR any more: its loss will end the run");
-            self.recovery.attempts = 0;
+            self.recovery.settings.attempts = 0;
             return;
         }
-        if !self.recovery.exports || self.recovery.journal.steps() < self.recovery.export_every {
+        if !self.recovery.exports || self.recovery.journal.steps() < self.recovery.settings.export_every {
             return;
         }
         match self.export() {
@@ -184,7 +188,7 @@ impl Subsystem {
         let mut attempts = 0;
         let mut pause = Duration::ZERO;
         let mut last: Option<NotRecovered> = None;
-        while attempts < self.recovery.attempts && self.connection.is_renewable() {
+        while attempts < self.recovery.settings.attempts && self.connection.is_renewable() {
             attempts += 1;
             let because: &dyn std::fmt::Display = match &last {
                 Some(last) => last,

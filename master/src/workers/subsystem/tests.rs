@@ -88,7 +88,7 @@ fn take(reply: ExchangeReply) -> (Subsystem, Result<(), RunError>) {
     let mut subsystem = Subsystem::new(
         "mass",
         Box::new(Direct::new(std::sync::Arc::new(Parrot(reply)))),
-        &RunSettings::default(),
+        RecoverySettings::default(),
     );
     let request = v1::InitializeRequest {
         coupling_outputs: vec!["x".into()],
@@ -200,7 +200,7 @@ fn look_inside(change: impl Fn(&mut Vec<f64>), part: usize) -> RunError {
         ..ExchangeReply::default()
     };
     let connection = Direct::new(std::sync::Arc::new(Parrot(reply)));
-    let mut subsystem = Subsystem::new("mass", Box::new(connection), &RunSettings::default());
+    let mut subsystem = Subsystem::new("mass", Box::new(connection), RecoverySettings::default());
     let request = v1::InitializeRequest {
         coupling_outputs: vec!["x".into()],
         integrated_outputs: vec!["x".into(), "y".into()],
