@@ -6,6 +6,7 @@
 mod direct;
 mod exit_message;
 mod grpc;
+mod health;
 mod launch;
 mod stream;
 mod threaded;
@@ -26,10 +27,12 @@ use crate::interrupt::Interrupt;
 pub use direct::Direct;
 pub use exit_message::ExitMessage;
 pub use grpc::{Grpc, new_runtime};
+pub use health::{CONTRACT, health};
 pub use launch::{LaunchError, Launcher, WorkerProcess};
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
 pub use time_limits::TimeLimits;
+pub use tonic_health::pb::health_check_response::ServingStatus;
 pub use unary_turns::UnaryTurns;
 pub use worker::Connection;
 

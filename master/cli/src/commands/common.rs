@@ -118,12 +118,17 @@ impl WorkerArguments {
     /// [`CommandError::Start`] if nobody answers there; [`CommandError::System`].
     pub fn connect(&self) -> Result<Grpc, CommandError> {
         let limit = Duration::from_secs_f64(self.timeout);
-        let limits = TimeLimits {
+        TimeLimits {
             start: limit,
             answer: limit,
-        };
+        }
+        let limits = self.limits();
         Grpc::connect(&self.address, limits, new_runtime()?, Interrupt::default())
             .map_err(|source| self.failed(source))
+    }
+
+    /// The time that it has.
+    pub fn limits(&self) -> TimeLimits {
     }
 
     /// That a call to it failed.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use linchpin_master::RunError;
-use linchpin_master::connection::StartError;
+use linchpin_master::connection::{CONTRACT, StartError};
 use linchpin_master::scene::{Coupling, SceneErrors};
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
@@ -149,6 +149,16 @@ pub enum CommandError {
     #[error("{address}: {source}")]
     Incompatible {
         /// The address.
+    /// The worker answers, but it does not serve.
+    #[error(
+        "{address} answers, but it serves no {CONTRACT}: {state}; is it a worker, and is it starting or ending?"
+    )]
+    NotServing {
+        /// The address.
+        address: String,
+        /// What it says, in the words of `grpc.health.v1`.
+        state: &'static str,
+    },
         address: String,
         /// Both versions.
         source: Incompatible,

@@ -6,6 +6,7 @@ pub mod conformance;
 pub mod converge;
 pub mod describe;
 pub mod error;
+pub mod health;
 pub mod instances;
 pub mod report;
 pub mod run;
