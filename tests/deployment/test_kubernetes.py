@@ -173,9 +173,7 @@ def permits(direction, own, other, protocol, port):
         return True
     policies = [document["spec"] for (kind, _), document in OBJECTS.items() if kind == "NetworkPolicy"]
     selecting = [
-        policy
-        for policy in policies
-        if direction in policy["policyTypes"] and matches(policy["podSelector"], labels)
+        policy for policy in policies if direction in policy["policyTypes"] and matches(policy["podSelector"], labels)
     ]
     if not selecting:
         return True

@@ -10,6 +10,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
+use crate::output::part::PartError;
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
 use crate::spectra::FailedCurve;
@@ -81,6 +82,19 @@ pub enum CommandError {
     /// A picture cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// A part of a study cannot be used.
+    #[error(transparent)]
+    Part(#[from] PartError),
+    /// A study in more parts than there is to do.
+    #[error("{parts} parts, but only {tasks} {unit} to do; ask for at most {tasks}")]
+    TooManyParts {
+        /// The parts.
+        parts: usize,
+        /// What can be dealt out.
+        tasks: usize,
+        /// What it is, in the plural.
+        unit: &'static str,
+    },
     /// A study has no result.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -135,6 +149,16 @@ pub enum CommandError {
         /// Why.
         source: Box<StartError>,
     },
+    /// The worker answers, but it does not serve.
+    #[error(
+        "{address} answers, but it serves no {CONTRACT}: {state}; is it a worker, and is it starting or ending?"
+    )]
+    NotServing {
+        /// The address.
+        address: String,
+        /// What it says, in the words of `grpc.health.v1`.
+        state: &'static str,
+    },
     /// The worker has no instance of a number.
     #[error(
         "{address} has no instance {number:#x}; linchpin instances {address} lists those that there are"
@@ -149,16 +173,6 @@ pub enum CommandError {
     #[error("{address}: {source}")]
     Incompatible {
         /// The address.
-    /// The worker answers, but it does not serve.
-    #[error(
-        "{address} answers, but it serves no {CONTRACT}: {state}; is it a worker, and is it starting or ending?"
-    )]
-    NotServing {
-        /// The address.
-        address: String,
-        /// What it says, in the words of `grpc.health.v1`.
-        state: &'static str,
-    },
         address: String,
         /// Both versions.
         source: Incompatible,
@@ -222,6 +236,7 @@ impl CommandError {
             _ if self.is_interrupt() => interrupt::received().map_or(1, Request::exit_code),
             Self::NothingToStudy { .. }
             | Self::NothingToAnimate
+            | Self::TooManyParts { .. }
             | Self::NoScene { .. }
             | Self::NoSettings { .. }
             | Self::StudyAmongOthers { .. } => 2,

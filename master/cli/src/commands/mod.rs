@@ -10,6 +10,8 @@ pub mod health;
 pub mod instances;
 pub mod report;
 pub mod run;
+pub mod sharing;
+mod slurm;
 pub mod spectrum;
 pub mod stability;
 pub mod worker;

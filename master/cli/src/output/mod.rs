@@ -1,11 +1,13 @@
 //! The folder that a command writes to: whose it is, and what `run.json` says of the command.
 //!
 //! * [`folder`]: one command at a time writes to a folder;
+//! * [`part`]: that of one part of a study, and all parts together;
 //! * [`program`]: which program writes, where and since when;
 //! * [`status`]: `run.json`, from the first moment to the end;
 //! * [`study`]: that of a study.
 
 pub mod folder;
+pub mod part;
 pub mod program;
 pub mod status;
 pub mod study;
