@@ -1,11 +1,16 @@
-//! docker-compose.yml: master and workers in containers of their own give the results of a local run, byte by byte.
+//! docker-compose.yml: master and workers in containers of their own give the results of a local run, byte by byte, and may do
+//! nothing that they need not. deploy/stack.yml: what `docker stack` makes of it.
 
 #![allow(clippy::unwrap_used)]
 
+use std::fs;
+use std::os::unix::fs::{MetadataExt, chown};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
-use linchpin_tests::process::Workshop;
+use linchpin_tests::process::{Workshop, wait_until};
+use rustix::process::{Pid, Signal, getuid, kill_process};
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -48,50 +53,8 @@ fn missing_engine() -> Option<String> {
     None
 }
 
-/// A compose project with a name, an image and a folder of its own. Dropping it removes what it made.
-struct Project {
-    name: String,
-    out: PathBuf,
-}
-
-impl Project {
-    fn compose(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new("docker-compose");
-        command
-            .args(["--project-name", &self.name])
-            .args(arguments)
-            .current_dir(repository())
-            .env("LINCHPIN_IMAGE", &self.name)
-            .env("LINCHPIN_OUT", &self.out);
-        command
-    }
-
-    fn containers(&self) -> String {
-        let label = format!("label=com.docker.compose.project={}", self.name);
-        succeed(Command::new("docker").args(["ps", "--all", "--quiet", "--filter", &label]))
-    }
-
-    fn images(&self) -> String {
-        succeed(Command::new("docker").args(["images", "--quiet", &self.name]))
-    }
-
-    fn down(&self) -> Output {
-        run(&mut self.compose(&["down", "--rmi", "all", "--volumes", "--remove-orphans"]))
-    }
-}
-
-impl Drop for Project {
-    fn drop(&mut self) {
-        self.down();
-    }
-}
-
-#[test]
-fn compose_gives_the_results_of_a_local_run() {
-    if let Some(reason) = missing_engine() {
-        println!("skipped, there is no docker engine: {reason}");
-        return;
-    }
+/// The static binary that the image has.
+static BINARY: LazyLock<()> = LazyLock::new(|| {
     let build = [
         "build",
         "--release",
@@ -105,23 +68,109 @@ fn compose_gives_the_results_of_a_local_run() {
             .args(build)
             .current_dir(repository()),
     );
+});
 
-    let workshop = Workshop::new();
-    let project = Project {
-        name: format!("linchpin-test-{}", std::process::id()),
-        out: workshop.path().join("compose"),
-    };
-    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master"]));
+/// A compose project with a name and an image of its own. Dropping it removes what it made.
+struct Project {
+    name: String,
+    /// What the user of the file may set.
+    settings: Vec<(&'static str, String)>,
+}
 
-    let scene = repository()
-        .join("scenes/oscillator.toml")
-        .display()
-        .to_string();
+impl Project {
+    fn new(purpose: &str, settings: &[(&'static str, String)]) -> Self {
+        LazyLock::force(&BINARY);
+        Self {
+            name: format!("linchpin-{purpose}-{}", std::process::id()),
+            settings: settings.to_vec(),
+        }
+    }
+
+    fn compose(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new("docker-compose");
+        command
+            .args(["--project-name", &self.name])
+            .args(arguments)
+            .current_dir(repository())
+            .env_remove("LINCHPIN_OUT")
+            .env_remove("LINCHPIN_USER")
+            .env("LINCHPIN_IMAGE", &self.name)
+            .envs(self.settings.iter().map(|(key, value)| (key, value)));
+        command
+    }
+
+    /// The container of a service.
+    fn container(&self, service: &str) -> String {
+        let number = succeed(&mut self.compose(&["ps", "--all", "--quiet", service]));
+        number.trim().to_owned()
+    }
+
+    fn inspect(&self, service: &str, format: &str) -> String {
+        let container = self.container(service);
+        let said =
+            succeed(Command::new("docker").args(["inspect", "--format", format, &container]));
+        said.trim().to_owned()
+    }
+
+    /// What `linchpin health` in the container of a service says of an address.
+    fn health(&self, service: &str, address: &str) -> Output {
+        let ask = ["exec", "-T", service, "/linchpin", "health", address];
+        run(&mut self.compose(&[&ask[..], &["--timeout", "2"]].concat()))
+    }
+
+    /// What is left of it.
+    fn leftovers(&self) -> String {
+        let label = format!("label=com.docker.compose.project={}", self.name);
+        let lists: [&[&str]; 4] = [
+            &["ps", "--all", "--quiet", "--filter", &label],
+            &["network", "ls", "--quiet", "--filter", &label],
+            &["volume", "ls", "--quiet", "--filter", &label],
+            &["images", "--quiet", &self.name],
+        ];
+        let list = |arguments: &&[&str]| succeed(Command::new("docker").args(*arguments));
+        lists.iter().map(list).collect()
+    }
+
+    fn down(&self) -> Output {
+        run(&mut self.compose(&["down", "--rmi", "all", "--volumes", "--remove-orphans"]))
+    }
+}
+
+impl Drop for Project {
+    fn drop(&mut self) {
+        self.down();
+    }
+}
+
+/// The results of the same scene with worker processes on this machine.
+fn local_results(workshop: &Workshop) -> String {
+    let scene = repository().join("scenes/oscillator.toml");
+    let scene = scene.display().to_string();
     workshop
         .run(&["run", &scene, "--out", "local", "--quiet"])
         .succeeds();
-    let [containers, local] =
-        ["compose", "local"].map(|run| workshop.read(&format!("{run}/results.csv")));
+    workshop.read("local/results.csv")
+}
+
+#[test]
+fn compose_gives_the_results_of_a_local_run() {
+    if let Some(reason) = missing_engine() {
+        println!("skipped, there is no docker engine: {reason}");
+        return;
+    }
+    let workshop = Workshop::new();
+    let project = Project::new("run", &[]);
+    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master"]));
+    // Out of the volume, as the file says.
+    let results = format!("{}:/out/.", project.container("master"));
+    fs::create_dir(workshop.path().join("compose")).unwrap();
+    succeed(
+        Command::new("docker")
+            .args(["cp", &results, "compose"])
+            .current_dir(workshop.path()),
+    );
+    let containers = workshop.read("compose/results.csv");
+    let local = local_results(&workshop);
     assert!(
         containers == local,
         "results.csv of the containers differs:\n{containers}"
@@ -130,6 +179,144 @@ fn compose_gives_the_results_of_a_local_run() {
 
     let down = project.down();
     assert!(down.status.success(), "{down:?}");
-    assert_eq!(project.containers(), "");
-    assert_eq!(project.images(), "");
+    assert_eq!(project.leftovers(), "");
+}
+
+/// The number of a user whom this machine does not know.
+const SOMEBODY: u32 = 61_234;
+
+#[test]
+fn results_go_to_a_folder_of_its_user() {
+    if let Some(reason) = missing_engine() {
+        println!("skipped, there is no docker engine: {reason}");
+        return;
+    }
+    let workshop = Workshop::new();
+    let out = workshop.path().join("own");
+    fs::create_dir(&out).unwrap();
+    let user = match getuid() {
+        root if root.is_root() => {
+            chown(&out, Some(SOMEBODY), Some(SOMEBODY)).unwrap();
+            SOMEBODY
+        }
+        own => own.as_raw(),
+    };
+    let settings = [
+        ("LINCHPIN_OUT", out.display().to_string()),
+        ("LINCHPIN_USER", format!("{user}:{user}")),
+    ];
+    let project = Project::new("folder", &settings);
+    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master"]));
+    assert!(workshop.read("own/results.csv") == local_results(&workshop));
+    let owner = fs::metadata(out.join("results.csv")).unwrap().uid();
+    assert_eq!(owner, user);
+}
+
+#[test]
+fn containers_may_do_nothing_that_they_need_not() {
+    if let Some(reason) = missing_engine() {
+        println!("skipped, there is no docker engine: {reason}");
+        return;
+    }
+    let project = Project::new("closed", &[]);
+    succeed(&mut project.compose(&["up", "--build", "--detach", "mass1", "mass2"]));
+    succeed(&mut project.compose(&["up", "--no-start", "master"]));
+    let limits = "{{.Config.User}} {{.HostConfig.ReadonlyRootfs}} {{.HostConfig.CapDrop}} \
+                  {{.HostConfig.SecurityOpt}} {{.HostConfig.Memory}} {{.HostConfig.PidsLimit}} {{.HostConfig.PortBindings}}";
+    for service in ["mass1", "mass2", "master"] {
+        assert_eq!(
+            project.inspect(service, limits),
+            "65532:65532 true [ALL] [no-new-privileges:true] 268435456 64 map[]",
+            "{service}"
+        );
+    }
+    // What the kernel says of the process.
+    let process = project.inspect("mass1", "{{.State.Pid}}");
+    let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
+    for line in [
+        "Uid:\t65532\t65532\t65532\t65532",
+        "Gid:\t65532\t65532\t65532\t65532",
+        "CapEff:\t0000000000000000",
+        "CapBnd:\t0000000000000000",
+        "NoNewPrivs:\t1",
+    ] {
+        assert!(status.lines().any(|own| own == line), "{line}\n{status}");
+    }
+
+    wait_until("healthy workers", || {
+        let health = |service| project.inspect(service, "{{.State.Health.Status}}");
+        ["mass1", "mass2"].map(health) == ["healthy"; 2]
+    });
+    // Each reaches itself, but not the other, by name or by address.
+    let address = "{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}";
+    let other = format!("http://{}:50051", project.inspect("mass2", address));
+    let own = project.health("mass1", "http://mass1:50051");
+    assert!(own.status.success(), "{own:?}");
+    assert!(project.health("mass2", &other).status.success());
+    for address in ["http://mass2:50051", &other] {
+        let reached = project.health("mass1", address);
+        assert_eq!(reached.status.code(), Some(1), "{reached:?}");
+    }
+}
+
+#[test]
+fn a_worker_that_was_killed_serves_again() {
+    if let Some(reason) = missing_engine() {
+        println!("skipped, there is no docker engine: {reason}");
+        return;
+    }
+    if !getuid().is_root() {
+        println!("skipped, only root can kill what runs in a container");
+        return;
+    }
+    let project = Project::new("killed", &[]);
+    succeed(&mut project.compose(&["up", "--build", "--detach", "mass1", "mass2"]));
+    let process = || project.inspect("mass1", "{{.State.Pid}}").parse().unwrap();
+    let killed: i32 = process();
+    kill_process(Pid::from_raw(killed).unwrap(), Signal::KILL).unwrap();
+    wait_until("another process", || ![0, killed].contains(&process()));
+    succeed(&mut project.compose(&["up", "--exit-code-from", "master"]));
+}
+
+/// How often a line stands in a file of settings.
+fn count(text: &str, line: &str) -> usize {
+    text.lines().filter(|own| own.trim() == line).count()
+}
+
+#[test]
+fn docker_stack_takes_its_own_file() {
+    if let Err(error) = Command::new("docker").arg("--version").output() {
+        println!("skipped, there is no docker: {error}");
+        return;
+    }
+    let config = |file: &str| {
+        let mut command = Command::new("docker");
+        command
+            .args(["stack", "config", "--compose-file", file])
+            .current_dir(repository())
+            .env_remove("LINCHPIN_IMAGE")
+            .env_remove("LINCHPIN_USER");
+        command
+    };
+    let stack = succeed(&mut config("deploy/stack.yml"));
+    // Without the fragments that services share.
+    let (stack, _) = stack.split_once("\nx-").unwrap();
+    for (line, times) in [
+        ("image: linchpin", 3),
+        ("user: 65532:65532", 3),
+        ("read_only: true", 3),
+        ("cap_drop:", 3),
+        ("- ALL", 3),
+        ("memory: \"268435456\"", 3),
+        ("pids: 64", 3),
+        ("- /linchpin", 2),
+        ("internal: true", 2),
+        ("encrypted: \"true\"", 2),
+        ("mode: replicated-job", 1),
+    ] {
+        assert_eq!(count(stack, line), times, "{line}\n{stack}");
+    }
+    // Why there are two files.
+    let refused = run(&mut config("docker-compose.yml"));
+    assert!(!refused.status.success(), "{refused:?}");
 }

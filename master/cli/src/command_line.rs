@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    CommandError, check, conformance, converge, describe, instances, report, run, spectrum,
+    CommandError, check, conformance, converge, describe, health, instances, report, run, spectrum,
     stability, worker,
 };
 use crate::log::Filter;
@@ -45,6 +45,7 @@ enum Command {
     Check(check::Arguments),
     Worker(worker::Arguments),
     Describe(describe::Arguments),
+    Health(health::Arguments),
     Instances(instances::Arguments),
     Conformance(conformance::Arguments),
     Converge(converge::Arguments),
@@ -66,6 +67,7 @@ impl Arguments {
             Command::Check(arguments) => check::execute(arguments),
             Command::Worker(arguments) => worker::execute(arguments),
             Command::Describe(arguments) => describe::execute(arguments),
+            Command::Health(arguments) => health::execute(arguments),
             Command::Instances(arguments) => instances::execute(arguments),
             Command::Conformance(arguments) => conformance::execute(arguments),
             Command::Converge(arguments) => converge::execute(arguments),

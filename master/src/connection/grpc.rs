@@ -51,17 +51,7 @@ impl Grpc {
         runtime: Arc<Runtime>,
         interrupt: Interrupt,
     ) -> Result<Self, CallError> {
-        let unreachable = |reason: String| CallError::Unreachable {
-            address: address.into(),
-            reason,
-        };
-        let endpoint = Endpoint::from_shared(address.to_owned())
-            .map_err(|error| unreachable(innermost(&error)))?
-            .tcp_nodelay(true)
-            .connect_timeout(limits.start);
-        let channel = runtime
-            .block_on(unless(&interrupt, reach(&endpoint, limits.start)))?
-            .map_err(|error| unreachable(innermost(&error)))?;
+        let channel = open(address, limits, &runtime, &interrupt)?;
         let client = WorkerClient::new(channel)
             .max_decoding_message_size(MESSAGE_LIMIT)
             .max_encoding_message_size(MESSAGE_LIMIT);
@@ -90,6 +80,26 @@ impl Grpc {
         check_label(name, request, &reply)?;
         Ok(reply)
     }
+}
+
+/// An open channel to `address`; tries again until the time limit for starts is over.
+pub(super) fn open(
+    address: &str,
+    limits: TimeLimits,
+    runtime: &Runtime,
+    interrupt: &Interrupt,
+) -> Result<Channel, CallError> {
+    let unreachable = |reason: String| CallError::Unreachable {
+        address: address.into(),
+        reason,
+    };
+    let endpoint = Endpoint::from_shared(address.to_owned())
+        .map_err(|error| unreachable(innermost(&error)))?
+        .tcp_nodelay(true)
+        .connect_timeout(limits.start);
+    runtime
+        .block_on(unless(interrupt, reach(&endpoint, limits.start)))?
+        .map_err(|error| unreachable(innermost(&error)))
 }
 
 /// Gives up waiting for `answer` after `limit`.

@@ -6,6 +6,7 @@
 mod direct;
 mod exit_message;
 mod grpc;
+mod health;
 mod launch;
 mod renewable;
 mod stream;
@@ -27,11 +28,13 @@ use crate::interrupt::Interrupt;
 pub use direct::Direct;
 pub use exit_message::ExitMessage;
 pub use grpc::{Grpc, new_runtime};
+pub use health::{CONTRACT, health};
 pub use launch::{LaunchError, Launcher, WorkerProcess};
 pub use renewable::Renewable;
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
 pub use time_limits::TimeLimits;
+pub use tonic_health::pb::health_check_response::ServingStatus;
 pub use unary_turns::UnaryTurns;
 pub use worker::Connection;
 

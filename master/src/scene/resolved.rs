@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use linchpin_proto::v1;
+use serde::{Deserialize, Serialize};
 
 pub use crate::joint::Kind as JointKind;
 use crate::reading::overrides::Override;
@@ -220,7 +221,7 @@ pub struct StabilitySettings {
 }
 
 /// A quantity that is varied.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// The keys that all take the value, as in an override.
     pub keys: Vec<String>,

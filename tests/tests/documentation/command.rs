@@ -108,6 +108,9 @@ fn of_block(page: &Page, block: &Block) -> Vec<Command> {
 
 /// What the program gets, if the line calls it.
 fn arguments(words: &[String]) -> Option<&[String]> {
+    let is_for_the_shell = |word: &String| [">", "|", "&&"].contains(&word.as_str());
+    let end = words.iter().position(is_for_the_shell);
+    let words = &words[..end.unwrap_or(words.len())];
     match words {
         [program, arguments @ ..] if program == "linchpin" => Some(arguments),
         [cargo, run, .., _] if cargo == "cargo" && run == "run" => {

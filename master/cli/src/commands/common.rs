@@ -63,6 +63,13 @@ impl SceneArguments {
         arguments
     }
 
+    /// Everything that decides about the results of a study of `scene`, as this says it.
+    pub fn identity(&self, study: &str, scene: &Scene) -> String {
+        let set = self.set.iter().map(ToString::to_string);
+        let parts = [study.to_owned(), scene.text().to_owned()];
+        parts.into_iter().chain(set).collect::<Vec<_>>().join("\n")
+    }
+
     /// A section of the scene that a study needs; `flags` do the same.
     pub fn section<'a, T>(
         &self,
@@ -117,13 +124,18 @@ impl WorkerArguments {
     /// # Errors
     /// [`CommandError::Start`] if nobody answers there; [`CommandError::System`].
     pub fn connect(&self) -> Result<Grpc, CommandError> {
-        let limit = Duration::from_secs_f64(self.timeout);
-        let limits = TimeLimits {
-            start: limit,
-            answer: limit,
-        };
+        let limits = self.limits();
         Grpc::connect(&self.address, limits, new_runtime()?, Interrupt::default())
             .map_err(|source| self.failed(source))
+    }
+
+    /// The time that it has.
+    pub fn limits(&self) -> TimeLimits {
+        let limit = Duration::from_secs_f64(self.timeout);
+        TimeLimits {
+            start: limit,
+            answer: limit,
+        }
     }
 
     /// That a call to it failed.
@@ -153,10 +165,20 @@ impl OutputArguments {
     /// # Errors
     /// As for [`OutputFolder::claim`].
     pub fn claim(&self, name: &str) -> Result<OutputFolder, CommandError> {
-        match &self.out {
-            Some(folder) => OutputFolder::claim(folder),
-            None => OutputFolder::claim(&Path::new("out").join(name)),
-        }
+        OutputFolder::claim(&self.folder(name))
+    }
+
+    /// The same for a folder within it.
+    ///
+    /// # Errors
+    /// As for [`OutputFolder::claim`].
+    pub fn claim_within(&self, name: &str, inner: &str) -> Result<OutputFolder, CommandError> {
+        OutputFolder::claim(&self.folder(name).join(inner))
+    }
+
+    fn folder(&self, name: &str) -> PathBuf {
+        let usual = || Path::new("out").join(name);
+        self.out.clone().unwrap_or_else(usual)
     }
 
     /// Whether a progress bar may be shown: not between the lines of a log, which tells the progress itself.

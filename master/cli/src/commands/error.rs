@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use linchpin_master::RunError;
-use linchpin_master::connection::StartError;
+use linchpin_master::connection::{CONTRACT, StartError};
 use linchpin_master::scene::{Coupling, SceneErrors};
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
@@ -11,6 +11,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
 use crate::output::checkpoint::ResumeError;
+use crate::output::part::PartError;
 use crate::plot::PlotError;
 use crate::simulate::SimulateError;
 use crate::spectra::FailedCurve;
@@ -85,6 +86,19 @@ pub enum CommandError {
     /// A picture cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// A part of a study cannot be used.
+    #[error(transparent)]
+    Part(#[from] PartError),
+    /// A study in more parts than there is to do.
+    #[error("{parts} parts, but only {tasks} {unit} to do; ask for at most {tasks}")]
+    TooManyParts {
+        /// The parts.
+        parts: usize,
+        /// What can be dealt out.
+        tasks: usize,
+        /// What it is, in the plural.
+        unit: &'static str,
+    },
     /// A study has no result.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -138,6 +152,16 @@ pub enum CommandError {
         address: String,
         /// Why.
         source: Box<StartError>,
+    },
+    /// The worker answers, but it does not serve.
+    #[error(
+        "{address} answers, but it serves no {CONTRACT}: {state}; is it a worker, and is it starting or ending?"
+    )]
+    NotServing {
+        /// The address.
+        address: String,
+        /// What it says, in the words of `grpc.health.v1`.
+        state: &'static str,
     },
     /// The worker has no instance of a number.
     #[error(
@@ -217,6 +241,7 @@ impl CommandError {
             Self::NothingToStudy { .. }
             | Self::Resume(ResumeError::NoCheckpoint { .. } | ResumeError::OtherRun { .. })
             | Self::NothingToAnimate
+            | Self::TooManyParts { .. }
             | Self::NoScene { .. }
             | Self::NoSettings { .. }
             | Self::StudyAmongOthers { .. } => 2,

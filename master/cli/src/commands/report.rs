@@ -6,10 +6,11 @@ use linchpin_master::scene::{is_study, load_study};
 
 use super::CommandError;
 use super::common::{OutputArguments, print};
+use super::sharing::{SharingArguments, Sweep};
 use crate::files::{write_table, write_text};
-use crate::output::study::{StudyAbout, Told, study};
+use crate::output::study::{StudyAbout, Told};
 use crate::study::StudyError;
-use crate::study::report::{Depth, Picture, Plan, Report, json, page, report};
+use crate::study::report::{Depth, Picture, Plan, Report, assemble, json, page, scenes};
 
 /// Compare coupling methods on scenes: errors against cost, residuals, energy, stability, on one page
 #[derive(Debug, clap::Args)]
@@ -17,6 +18,7 @@ use crate::study::report::{Depth, Picture, Plan, Report, json, page, report};
   linchpin report
   linchpin report scenes/report.toml --out out/report
   linchpin report scenes/oscillator.toml scenes/double-pendulum.toml --quick
+  linchpin report --slurm 5 > report.sbatch     on a cluster, each part with whole scenes
 
 A study lists scenes, settings and macro steps; a scene alone gets the settings that the shipped study has for every scene.
 Runs one after the other, in this process, since their time is measured. Writes DIR/report.html, which needs no network and
@@ -33,6 +35,9 @@ pub struct Arguments {
     /// The three largest macro steps, once, and coarse maps: whether everything works
     #[arg(long)]
     quick: bool,
+
+    #[command(flatten)]
+    sharing: SharingArguments,
 
     #[command(flatten)]
     output: OutputArguments,
@@ -58,20 +63,31 @@ impl Arguments {
 /// Runs the study and writes page and tables.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     let plan = arguments.plan()?;
-    let folder = arguments.output.claim(&plan.name)?;
-    let tasks = plan.number_of_tasks();
     let output = &arguments.output;
-    let about = StudyAbout::of_files("report", &plan.name, &arguments.files);
-    study(&folder, about, |told| {
-        let found = output.with_progress(tasks, "runs", |tick| report(&plan, tick));
-        told.missing(found.missing);
-        write(&found.results, told)?;
-        if !output.quiet {
-            let page = folder.path().join(PAGE);
-            print(format_args!("report in {}\n", page.display()))?;
-        }
-        Ok(found.stopped)
-    })
+    let sweep = Sweep {
+        command: "report",
+        name: &plan.name,
+        about: StudyAbout::of_files("report", &plan.name, &arguments.files),
+        identity: plan.identity(),
+        tasks: plan.scenes.len(),
+        unit: "scenes",
+        progress: (plan.number_of_tasks(), "runs"),
+    };
+    arguments.sharing.carry_out(
+        sweep,
+        output,
+        |share, tick| Ok(scenes(&plan, share, tick)),
+        |pieces, told, folder| {
+            let found = assemble(&plan, pieces);
+            told.missing(found.missing);
+            write(&found.results, told)?;
+            if !output.quiet {
+                let page = folder.path().join(PAGE);
+                print(format_args!("report in {}\n", page.display()))?;
+            }
+            Ok(found.stopped)
+        },
+    )
 }
 
 const PAGE: &str = "report.html";

@@ -4,9 +4,10 @@ use std::str::FromStr;
 
 use super::CommandError;
 use super::common::{OutputArguments, SceneArguments};
+use super::sharing::{SharingArguments, Sweep};
 use crate::files::write_table;
-use crate::output::study::{StudyAbout, study};
-use crate::study::stability::{Grid, draw_map, map, number_of_points, rows, summary};
+use crate::output::study::StudyAbout;
+use crate::study::stability::{Grid, assemble, draw_map, number_of_points, points, rows, summary};
 
 /// Map the stability of a scene over two of its settings
 #[derive(Debug, clap::Args)]
@@ -14,6 +15,7 @@ use crate::study::stability::{Grid, draw_map, map, number_of_points, rows, summa
   linchpin stability scenes/s1/fig07.toml --out out/fig07
   linchpin stability scenes/oscillator.toml --x 'subsystem.*.parameters.c=1e1:1e8:25:log' \\
       --y 'subsystem.*.parameters.d=1e-1:1e5:25:log'
+  linchpin stability scenes/s1/fig07.toml --slurm 8 > fig07.sbatch     in 8 parts on a cluster
 
 Runs in parallel and in this process. A point of a linear scene is stable if no position or velocity grows tenfold from the
 first to the last tenth of the time, one of any other scene if its velocities stay near those of a reference run. Where the scene is linear, its solvers exact and its states described, the spectral radius of
@@ -30,6 +32,9 @@ pub struct Arguments {
     /// Vertical axis in place of stability.y of the scene
     #[arg(long, value_name = "KEY=FROM:TO:POINTS[:log]")]
     y: Option<AxisRange>,
+
+    #[command(flatten)]
+    sharing: SharingArguments,
 
     #[command(flatten)]
     output: OutputArguments,
@@ -110,25 +115,37 @@ impl Arguments {
 
 /// Maps the scene and writes table and picture.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let scene = arguments.scene_with_flags().load()?;
+    let given = arguments.scene_with_flags();
+    let scene = given.load()?;
     let flags = "--x KEY=FROM:TO:POINTS and --y KEY=FROM:TO:POINTS";
-    let given = &arguments.scene;
     let grid = Grid::new(given.section(&scene.stability, "stability", flags)?);
     let output = &arguments.output;
-    let folder = output.claim(&scene.name)?;
-    let points = number_of_points(&scene, &grid);
-    let about = StudyAbout::of_scene("stability", &scene, given);
-    study(&folder, about, |told| {
-        let found = output.with_progress(points, "points", |tick| map(&scene, &grid, tick))?;
-        let maps = &found.results;
-        told.missing(found.missing);
-        write_table(&told.file("stability.csv"), rows(maps))?;
-        if maps.iter().any(|map| map.missing == 0) {
-            draw_map(maps, &grid, &told.picture("stability"))?;
-        }
-        output.conclude(&summary(maps), folder.path())?;
-        Ok(found.stopped)
-    })
+    let tasks = number_of_points(&scene, &grid);
+    let sweep = Sweep {
+        command: "stability",
+        name: &scene.name,
+        about: StudyAbout::of_scene("stability", &scene, &given),
+        identity: given.identity("stability", &scene),
+        tasks,
+        unit: "points",
+        progress: (tasks, "points"),
+    };
+    arguments.sharing.carry_out(
+        sweep,
+        output,
+        |share, tick| points(&scene, &grid, share, tick),
+        |pieces, told, folder| {
+            let found = assemble(&scene, &grid, pieces)?;
+            let maps = &found.results;
+            told.missing(found.missing);
+            write_table(&told.file("stability.csv"), rows(maps))?;
+            if maps.iter().any(|map| map.missing == 0) {
+                draw_map(maps, &grid, &told.picture("stability"))?;
+            }
+            output.conclude(&summary(maps), folder.path())?;
+            Ok(found.stopped)
+        },
+    )
 }
 
 #[cfg(test)]

@@ -2,12 +2,14 @@
 //!
 //! * [`checkpoint`]: what a run needs to go on when its process has ended;
 //! * [`folder`]: one command at a time writes to a folder;
+//! * [`part`]: that of one part of a study, and all parts together;
 //! * [`program`]: which program writes, where and since when;
 //! * [`status`]: `run.json`, from the first moment to the end;
 //! * [`study`]: that of a study.
 
 pub mod checkpoint;
 pub mod folder;
+pub mod part;
 pub mod program;
 pub mod status;
 pub mod study;

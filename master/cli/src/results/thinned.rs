@@ -1,8 +1,10 @@
 //! A series in bounded memory.
 
+use serde::{Deserialize, Serialize};
+
 /// Items of a long run at equal distances: when there are too many, every second one is dropped and from then on only
 /// every second one is taken. The first one always stays.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Thinned<T> {
     items: Vec<T>,
     most: usize,

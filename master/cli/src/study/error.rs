@@ -4,6 +4,8 @@ use linchpin_master::RunError;
 use linchpin_master::scene::SceneErrors;
 use linchpin_proto::readable::number;
 
+use super::Share;
+
 /// Why a study has no result.
 #[derive(Debug, thiserror::Error)]
 pub enum StudyError {
@@ -13,6 +15,16 @@ pub enum StudyError {
     /// A result cannot be written as JSON.
     #[error("the results cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// Parts are missing, or not whole.
+    #[error(
+        "{} missing or not whole: make what is missing with --part {}, then --merge again",
+        if parts.len() == 1 { "a part is" } else { "parts are" },
+        readable(parts)
+    )]
+    PartsMissing {
+        /// Which.
+        parts: Vec<Share>,
+    },
     /// A run failed in another way than by diverging.
     #[error("{case}: {source}")]
     Run {
@@ -62,6 +74,22 @@ pub enum StudyError {
         /// How.
         reason: String,
     },
+}
+
+/// Most parts that a message names.
+const MOST_NAMED: usize = 8;
+
+fn readable(parts: &[Share]) -> String {
+    let named: Vec<String> = parts
+        .iter()
+        .take(MOST_NAMED)
+        .map(Share::to_string)
+        .collect();
+    let more = match parts.len().saturating_sub(MOST_NAMED) {
+        0 => String::new(),
+        more => format!(" and {more} more"),
+    };
+    named.join(", ") + &more
 }
 
 impl StudyError {

@@ -1,11 +1,13 @@
 //! Errors of one run against the reference.
 
+use serde::{Deserialize, Serialize};
+
 use super::columns::{Column, Kind};
 use super::reference::Reference;
 use crate::error_norm::ColumnError;
 
 /// What an error is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Quantity {
     /// Positions of all markers.
     Position,
@@ -42,7 +44,7 @@ impl Quantity {
 }
 
 /// Root mean square errors over those of the reference (NRMS), for each [`Quantity`].
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Errors([Option<f64>; 5]);
 
 impl Errors {

@@ -30,14 +30,24 @@ impl<T> Found<T> {
     }
 }
 
-/// Does the tasks in parallel, each by itself, until one of them fails; those that were not done are `None`.
+/// The results of the tasks of a study, each in its place.
+#[derive(Debug)]
+pub struct Pieces<R> {
+    /// `None` where a task was not done.
+    pub results: Vec<Option<R>>,
+    /// Why a task that was due was not done.
+    pub stopped: Option<StudyError>,
+}
+
+/// Does the tasks that are given in parallel, each by itself, until one of them fails.
 pub(super) fn each<T: Sync, R: Send>(
-    tasks: &[T],
+    tasks: &[Option<T>],
     one: impl Fn(&T) -> Result<R, StudyError> + Sync,
-) -> (Vec<Option<R>>, Option<StudyError>) {
+) -> Pieces<R> {
     let stopped = Mutex::new(None);
     let reason = || stopped.lock().unwrap_or_else(PoisonError::into_inner);
     let done = tasks.par_iter().with_max_len(1).map(|task| {
+        let task = task.as_ref()?;
         if reason().is_some() {
             return None;
         }
@@ -49,11 +59,10 @@ pub(super) fn each<T: Sync, R: Send>(
             }
         }
     });
-    let done = done.collect();
-    (
-        done,
-        stopped.into_inner().unwrap_or_else(PoisonError::into_inner),
-    )
+    Pieces {
+        results: done.collect(),
+        stopped: stopped.into_inner().unwrap_or_else(PoisonError::into_inner),
+    }
 }
 
 #[cfg(test)]
@@ -65,8 +74,11 @@ mod tests {
     #[test]
     fn what_was_done_before_a_failure_stays() {
         let begun = AtomicUsize::new(0);
-        let tasks: Vec<usize> = (0..500).collect();
-        let (done, stopped) = each(&tasks, |task| {
+        let tasks: Vec<Option<usize>> = (0..500).map(Some).collect();
+        let Pieces {
+            results: done,
+            stopped,
+        } = each(&tasks, |task| {
             begun.fetch_add(1, Ordering::Relaxed);
             match task {
                 77 => Err(StudyError::NoClosedForm { case: "x".into() }),
@@ -76,8 +88,9 @@ mod tests {
         assert!(matches!(stopped, Some(StudyError::NoClosedForm { .. })));
         assert_eq!(done.len(), 500);
         assert_eq!(done.iter().flatten().count(), begun.into_inner() - 1);
-        let doubled =
-            |(task, result): (&usize, &Option<usize>)| result.is_none_or(|own| own == 2 * task);
+        let doubled = |(task, result): (&Option<usize>, &Option<usize>)| {
+            result.is_none_or(|own| task.is_some_and(|task| own == 2 * task))
+        };
         assert!(tasks.iter().zip(&done).all(doubled));
     }
 }

@@ -16,7 +16,9 @@ mod reference;
 pub mod report;
 mod run;
 mod runs;
+mod share;
 pub mod stability;
 
 pub use error::StudyError;
-pub use found::Found;
+pub use found::{Found, Pieces};
+pub use share::Share;

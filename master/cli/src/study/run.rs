@@ -1,13 +1,14 @@
 //! The runs of a study and how they end.
 
 use linchpin_master::results::Statistics;
+use serde::{Deserialize, Serialize};
 
 use super::errors::{Errors, Quantity};
 use super::orders::Point;
 use crate::plot::Curve;
 
 /// A run at one macro step.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct StudyRun {
     /// Macro step in s.
     pub macro_step: f64,
@@ -16,7 +17,7 @@ pub struct StudyRun {
 }
 
 /// How a run of a study ended.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub enum Ending {
     /// At its end.
     Done {

@@ -16,7 +16,7 @@ pub use super::orders::{least_squares, neighbouring};
 use super::reference::Reference;
 pub use super::run::{Ending, StudyRun};
 use super::runs::{Variant, watched, with_macro_step};
-use super::{Found, StudyError};
+use super::{Found, Pieces, Share, StudyError};
 pub use picture::{draw_errors, draw_work_precision};
 pub use table::{rows, summary};
 
@@ -44,39 +44,83 @@ pub fn converge(
     settings: &ConvergeSettings,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Found<Vec<CaseRuns>>, StudyError> {
-    let mut macro_steps = settings.macro_steps.clone();
-    macro_steps.sort_by(f64::total_cmp);
-    let studies = Variant::all(scene)?
-        .into_par_iter()
-        .map(|variant| Study::new(variant, settings.reference, &macro_steps, tick))
+    assemble(scene, settings, runs(scene, settings, Share::WHOLE, tick)?)
+}
+
+/// A share of the runs, those with the smallest macro steps first; `tick` is called after each run. Where a case is compared with
+/// its finest run, every part makes that run.
+///
+/// # Errors
+/// As for [`converge`].
+pub fn runs(
+    scene: &Scene,
+    settings: &ConvergeSettings,
+    share: Share,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Pieces<StudyRun>, StudyError> {
+    let macro_steps = sorted(settings);
+    let variants = Variant::all(scene)?;
+    let cases = variants.len();
+    let is_due = |case: usize| (0..macro_steps.len()).any(|step| share.has(step * cases + case));
+    let studies = { variants.into_par_iter().enumerate() }
+        .map(|(case, variant)| {
+            let study = || Study::new(variant, settings.reference, &macro_steps, tick);
+            is_due(case).then(study).transpose()
+        })
         .collect::<Result<Vec<_>, _>>()?;
     // The smallest steps take the longest: they are begun first.
-    let points: Vec<(&Study, f64)> = macro_steps
-        .iter()
+    let places = { macro_steps.iter() }
         .flat_map(|&step| studies.iter().map(move |study| (study, step)))
-        .collect();
-    let (runs, stopped) = each(&points, |(study, step)| study.run(*step, tick));
-    let name =
-        |(study, step): &(&Study, f64)| format!("{}, H = {} s", study.variant.name, number(*step));
-    let missing = points.iter().zip(&runs).filter(|(_, run)| run.is_none());
-    let missing = missing.map(|(point, _)| name(point)).collect();
-    let runs: Vec<StudyRun> = { points.iter().zip(runs) }
-        .map(|((_, macro_step), run)| run.unwrap_or_else(|| StudyRun::missing(*macro_step)))
-        .collect();
-    let of_case = |(number, study): (usize, &Study)| CaseRuns {
-        case: study.variant.name.clone(),
-        runs: runs[number..]
+        .enumerate();
+    let tasks = places.map(|(place, (study, step))| match share.has(place) {
+        true => Some((study.as_ref()?, step)),
+        false => None,
+    });
+    let tasks: Vec<Option<(&Study, f64)>> = tasks.collect();
+    Ok(each(&tasks, |(study, step)| study.run(*step, tick)))
+}
+
+/// The study that consists of these runs.
+///
+/// # Errors
+/// [`StudyError::Scene`]: a case does not fit the scene.
+pub fn assemble(
+    scene: &Scene,
+    settings: &ConvergeSettings,
+    runs: Pieces<StudyRun>,
+) -> Result<Found<Vec<CaseRuns>>, StudyError> {
+    let variants = Variant::all(scene)?;
+    let macro_steps = sorted(settings);
+    let points = { macro_steps.iter() }
+        .flat_map(|&step| variants.iter().map(move |variant| (&variant.name, step)));
+    let mut missing = Vec::new();
+    let made = points.zip(runs.results).map(|((name, step), run)| {
+        run.unwrap_or_else(|| {
+            missing.push(format!("{name}, H = {} s", number(step)));
+            StudyRun::missing(step)
+        })
+    });
+    let made: Vec<StudyRun> = made.collect();
+    let of_case = |(number, variant): (usize, &Variant)| CaseRuns {
+        case: variant.name.clone(),
+        runs: made[number..]
             .iter()
-            .step_by(studies.len())
+            .step_by(variants.len())
             .rev()
             .cloned()
             .collect(),
     };
     Ok(Found {
-        results: studies.iter().enumerate().map(of_case).collect(),
+        results: variants.iter().enumerate().map(of_case).collect(),
         missing,
-        stopped,
+        stopped: runs.stopped,
     })
+}
+
+fn sorted(settings: &ConvergeSettings) -> Vec<f64> {
+    let mut macro_steps = settings.macro_steps.clone();
+    macro_steps.sort_by(f64::total_cmp);
+    macro_steps
 }
 
 /// One case and what its runs are compared with.

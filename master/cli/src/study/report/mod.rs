@@ -14,14 +14,16 @@ mod table;
 mod trace;
 
 use linchpin_master::scene::Measure;
+use serde::{Deserialize, Serialize};
 
-use super::Found;
 use super::errors::Quantity;
 pub use super::run::{Ending, StudyRun};
 use super::stability::{CaseMap, Grid};
+use super::{Found, Pieces, Share};
 pub use envelope::{Bound, Cheapest, Cost, Ratio, cheapest, cost_of, ratio};
 pub use page::text as page;
 pub use pictures::Picture;
+use plan::PlannedScene;
 pub use plan::{Depth, Plan};
 pub use runs::ToleranceRun;
 pub use summary::{EnvelopeRow, envelope};
@@ -43,6 +45,7 @@ pub struct Report {
 }
 
 /// One scene with all its settings.
+#[derive(Serialize, Deserialize)]
 pub struct SceneReport {
     /// Name in the study.
     pub name: String,
@@ -63,6 +66,7 @@ pub struct SceneReport {
 }
 
 /// One setting of one scene.
+#[derive(Serialize, Deserialize)]
 pub struct SettingReport {
     /// Its name.
     pub name: String,
@@ -82,27 +86,52 @@ pub struct SettingReport {
 /// A mistake in a scene or setting, a missing reference or an interrupt end the report early, with the scenes up to then. A run that
 /// diverges does not, nor does a method that a scene cannot have.
 pub fn report(plan: &Plan, tick: &(dyn Fn() + Sync)) -> Found<Report> {
-    let mut scenes = Vec::new();
-    let mut missing = Vec::new();
+    assemble(plan, scenes(plan, Share::WHOLE, tick))
+}
+
+/// What was found of one scene.
+#[derive(Serialize, Deserialize)]
+pub struct Piece {
+    report: SceneReport,
+    missing: Vec<String>,
+}
+
+/// Makes the runs of a share of the scenes, as [`report`] does.
+pub fn scenes(plan: &Plan, share: Share, tick: &(dyn Fn() + Sync)) -> Pieces<Piece> {
     let mut stopped = None;
-    for planned in &plan.scenes {
-        let found = match stopped {
-            None => scene::run(planned, plan.depth, tick),
-            Some(_) => {
-                missing.push(planned.name.clone());
-                continue;
-            }
-        };
-        match found {
+    let mut one = |(place, planned): (usize, &PlannedScene)| {
+        if !share.has(place) || stopped.is_some() {
+            return None;
+        }
+        match scene::run(planned, plan.depth, tick) {
             Ok(found) => {
-                missing.extend(found.missing);
                 stopped = found.stopped;
-                scenes.push(found.results);
+                Some(Piece {
+                    report: found.results,
+                    missing: found.missing,
+                })
             }
             Err(error) => {
-                missing.push(planned.name.clone());
                 stopped = Some(error);
+                None
             }
+        }
+    };
+    let results = plan.scenes.iter().enumerate().map(&mut one).collect();
+    Pieces { results, stopped }
+}
+
+/// The report that consists of these scenes.
+pub fn assemble(plan: &Plan, pieces: Pieces<Piece>) -> Found<Report> {
+    let mut scenes = Vec::new();
+    let mut missing = Vec::new();
+    for (planned, piece) in plan.scenes.iter().zip(pieces.results) {
+        match piece {
+            Some(piece) => {
+                scenes.push(piece.report);
+                missing.extend(piece.missing);
+            }
+            None => missing.push(planned.name.clone()),
         }
     }
     let results = Report {
@@ -115,7 +144,7 @@ pub fn report(plan: &Plan, tick: &(dyn Fn() + Sync)) -> Found<Report> {
     Found {
         results,
         missing,
-        stopped,
+        stopped: pieces.stopped,
     }
 }
 

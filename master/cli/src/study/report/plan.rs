@@ -44,6 +44,8 @@ pub struct PlannedScene {
     pub(super) name: String,
     pub(super) file: PathBuf,
     pub(super) scene: Scene,
+    /// What the study sets in it, as `KEY=VALUE`.
+    set: Vec<String>,
     pub(super) measure: Measure,
     /// From the largest to the smallest.
     pub(super) macro_steps: Vec<f64>,
@@ -101,6 +103,19 @@ impl Plan {
         })
     }
 
+    /// Everything that decides about its results.
+    pub fn identity(&self) -> String {
+        let mut parts = vec![format!("report, {:?}, {:?}", self.depth, self.targets)];
+        for own in &self.scenes {
+            let numbers = (&own.macro_steps, own.trace_step, own.measure);
+            parts.push(format!("{}: {numbers:?}, {:?}", own.name, own.set));
+            parts.push(own.scene.text().to_owned());
+            let settings = own.settings.iter();
+            parts.extend(settings.map(|setting| format!("{}: {:?}", setting.name, setting.set)));
+        }
+        parts.join("\n")
+    }
+
     /// Number of runs and of points of stability maps, for the progress.
     pub fn number_of_tasks(&self) -> usize {
         let of_scene = |scene: &PlannedScene| scene.number_of_tasks(self.depth);
@@ -150,6 +165,12 @@ impl PlannedScene {
             name: planned.name.clone(),
             file: planned.file.clone(),
             scene,
+            set: planned
+                .set
+                .overrides()
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
             measure: planned.measure,
             trace_step: match depth {
                 Depth::Full => planned.trace_step,

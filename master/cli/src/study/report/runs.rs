@@ -2,6 +2,7 @@
 
 use linchpin_master::RunError;
 use linchpin_master::scene::Scene;
+use serde::{Deserialize, Serialize};
 
 use super::Depth;
 use crate::study::StudyError;
@@ -12,6 +13,7 @@ use crate::study::run::{Ending, StudyRun};
 use crate::study::runs::{watched, with_macro_step};
 
 /// A run of the monolithic scene.
+#[derive(Serialize, Deserialize)]
 pub struct ToleranceRun {
     /// Relative and absolute tolerance of its solver.
     pub tolerance: f64,

@@ -3,6 +3,7 @@
 use std::convert::Infallible;
 
 use linchpin_master::results::{Drawn, Row};
+use serde::{Deserialize, Serialize};
 
 use crate::results::Thinned;
 use crate::simulate::Recorder;
@@ -13,6 +14,7 @@ use crate::study::reference::Reference;
 const MOST_POINTS: usize = 1024;
 
 /// What one run shows over time; as far as it came, if it diverged.
+#[derive(Serialize, Deserialize)]
 pub struct Trace {
     /// Largest residual on position level of all joints (m, rad).
     pub residual: Thinned<(f64, f64)>,

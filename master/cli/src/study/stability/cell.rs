@@ -1,9 +1,10 @@
 //! One point of a stability map.
 
 use linchpin_master::scene::Scene;
+use serde::{Deserialize, Serialize};
 
 /// What was found at one point.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Cell {
     /// Value of the horizontal axis.
     pub x: f64,
@@ -16,7 +17,7 @@ pub struct Cell {
 }
 
 /// What a simulation showed.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Simulated {
     /// Of a linear scene the largest growth of a position or velocity: its largest size in the last tenth of the time over
     /// that in the first. Of any other the largest deviation of the velocities from the reference run, over their largest

@@ -10,10 +10,11 @@ use linchpin_master::probe::{ProbeError, macro_step_map};
 use linchpin_master::scene::{Axis, Scene, StabilitySettings};
 use linchpin_proto::readable::number;
 use linchpin_proto::v1::Model;
+use serde::{Deserialize, Serialize};
 
 use super::found::each;
 use super::runs::{Variant, in_process};
-use super::{Found, StudyError};
+use super::{Found, Pieces, Share, StudyError};
 use crate::closed_form::ClosedForm;
 use blow_up::BlowUp;
 pub use cell::{Agreement, Cell, Simulated};
@@ -23,7 +24,7 @@ pub(super) use picture::plot_of;
 pub use table::{Count, rows, summary};
 
 /// The map of one case.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct CaseMap {
     /// Name of the case, or of the scene.
     pub case: String,
@@ -36,7 +37,7 @@ pub struct CaseMap {
 }
 
 /// Values of both axes in increasing order.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Grid {
     x: Axis,
     y: Axis,
@@ -126,7 +127,7 @@ pub fn map(
     grid: &Grid,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Found<Vec<CaseMap>>, StudyError> {
-    map_variants(Variant::all(scene)?, grid, tick)
+    assemble(scene, grid, points(scene, grid, Share::WHOLE, tick)?)
 }
 
 /// The same for variants of a scene.
@@ -138,46 +139,96 @@ pub(super) fn map_variants(
     grid: &Grid,
     tick: &(dyn Fn() + Sync),
 ) -> Result<Found<Vec<CaseMap>>, StudyError> {
-    let studies = variants
+    let names = variants.iter().map(|variant| variant.name.clone());
+    let names: Vec<String> = names.collect();
+    let points = points_of(variants, grid, Share::WHOLE, tick)?;
+    Ok(maps_of(&names, grid, points))
+}
+
+/// What was found at one point of one case.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Point {
+    cell: Cell,
+    no_radius: Option<String>,
+}
+
+/// A share of the points of a map, case after case; `tick` is called after each point.
+///
+/// # Errors
+/// As for [`map`].
+pub fn points(
+    scene: &Scene,
+    grid: &Grid,
+    share: Share,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Pieces<Point>, StudyError> {
+    points_of(Variant::all(scene)?, grid, share, tick)
+}
+
+/// The map that consists of these points.
+///
+/// # Errors
+/// [`StudyError::Scene`]: a case does not fit the scene.
+pub fn assemble(
+    scene: &Scene,
+    grid: &Grid,
+    points: Pieces<Point>,
+) -> Result<Found<Vec<CaseMap>>, StudyError> {
+    let variants = Variant::all(scene)?.into_iter();
+    let names: Vec<String> = variants.map(|variant| variant.name).collect();
+    Ok(maps_of(&names, grid, points))
+}
+
+fn points_of(
+    variants: Vec<Variant>,
+    grid: &Grid,
+    share: Share,
+    tick: &(dyn Fn() + Sync),
+) -> Result<Pieces<Point>, StudyError> {
+    let places = |case: usize| case * grid.len()..(case + 1) * grid.len();
+    let is_due = |case: usize| places(case).any(|place| share.has(place));
+    let due = variants
         .into_iter()
-        .map(|variant| Study::new(variant, grid))
-        .collect::<Result<Vec<_>, _>>()?;
-    let tasks: Vec<(&Study, (f64, f64))> = studies
-        .iter()
+        .enumerate()
+        .map(|(case, variant)| is_due(case).then(|| Study::new(variant, grid)).transpose());
+    let studies = due.collect::<Result<Vec<_>, _>>()?;
+    let places = { studies.iter() }
         .flat_map(|study| grid.points().map(move |point| (study, point)))
-        .collect();
-    let judge = |(study, point): &(&Study, (f64, f64))| {
-        let cell = study.cell(grid, *point);
+        .enumerate();
+    let tasks = places.map(|(place, (study, point))| match share.has(place) {
+        true => Some((study.as_ref()?, point)),
+        false => None,
+    });
+    let tasks: Vec<Option<(&Study, (f64, f64))>> = tasks.collect();
+    Ok(each(&tasks, |(study, point)| {
+        let found = study.point(grid, *point);
         tick();
-        cell
-    };
-    let (cells, stopped) = each(&tasks, judge);
-    let name = |(study, (x, y)): &(&Study, (f64, f64))| {
-        format!(
-            "{}, point ({}, {})",
-            study.variant.name,
-            number(*x),
-            number(*y)
-        )
-    };
-    let missing = tasks.iter().zip(&cells).filter(|(_, cell)| cell.is_none());
-    let missing = missing.map(|(task, _)| name(task)).collect();
-    let mut cells = cells.into_iter();
-    let of_case = |study: &Study| {
-        let own = cells.by_ref().take(grid.len());
-        let own: Vec<Cell> = own.flatten().collect();
+        found
+    }))
+}
+
+fn maps_of(names: &[String], grid: &Grid, points: Pieces<Point>) -> Found<Vec<CaseMap>> {
+    let tasks = { names.iter() }.flat_map(|name| grid.points().map(move |point| (name, point)));
+    let missing = tasks.zip(&points.results);
+    let missing = missing.filter(|(_, found)| found.is_none());
+    let missing =
+        missing.map(|((name, (x, y)), _)| format!("{name}, point ({}, {})", number(x), number(y)));
+    let missing = missing.collect();
+    let mut results = points.results.into_iter();
+    let of_case = |name: &String| {
+        let own: Vec<Point> = results.by_ref().take(grid.len()).flatten().collect();
         CaseMap {
-            case: study.variant.name.clone(),
+            case: name.clone(),
             missing: grid.len() - own.len(),
-            cells: own,
-            no_radius: study.no_radius.clone(),
+            no_radius: own.first().and_then(|point| point.no_radius.clone()),
+            cells: own.into_iter().map(|point| point.cell).collect(),
         }
     };
-    Ok(Found {
-        results: studies.iter().map(of_case).collect(),
+    Found {
+        results: names.iter().map(of_case).collect(),
         missing,
-        stopped,
-    })
+        stopped: points.stopped,
+    }
 }
 
 /// One case.
@@ -216,6 +267,13 @@ impl Study {
             models,
             judge,
             no_radius,
+        })
+    }
+
+    fn point(&self, grid: &Grid, point: (f64, f64)) -> Result<Point, StudyError> {
+        Ok(Point {
+            cell: self.cell(grid, point)?,
+            no_radius: self.no_radius.clone(),
         })
     }
 
