@@ -88,7 +88,11 @@ pub struct Subsystem {
 }
 
 impl Subsystem {
-    pub(crate) fn new(name: &str, connection: Box<dyn Connection>, settings: RecoverySettings) -> Self {
+    pub(crate) fn new(
+        name: &str,
+        connection: Box<dyn Connection>,
+        settings: RecoverySettings,
+    ) -> Self {
         Self {
             name: name.to_owned(),
             connection,
@@ -153,6 +157,11 @@ impl Subsystem {
             noise: self.tolerance.filter(|_| !self.repeats_steps),
             has_derivatives: self.offers_derivatives,
         }
+    }
+
+    /// Whether its worker is a process of its own.
+    pub(super) fn is_elsewhere(&self) -> bool {
+        self.connection.is_renewable()
     }
 
     /// Which way the exchange takes.
