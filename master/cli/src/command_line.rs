@@ -3,7 +3,7 @@
 use clap::{Parser, Subcommand};
 
 use crate::commands::{
-    CommandError, check, conformance, converge, describe, instances, report, run, spectrum,
+    CommandError, check, conformance, converge, describe, instances, plot, report, run, spectrum,
     stability, worker,
 };
 use crate::log::Filter;
@@ -42,6 +42,7 @@ pub struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
+    Plot(plot::Arguments),
     Check(check::Arguments),
     Worker(worker::Arguments),
     Describe(describe::Arguments),
@@ -63,6 +64,7 @@ impl Arguments {
     pub fn execute(&self) -> Result<(), CommandError> {
         match &self.command {
             Command::Run(arguments) => run::execute(arguments),
+            Command::Plot(arguments) => plot::execute(arguments),
             Command::Check(arguments) => check::execute(arguments),
             Command::Worker(arguments) => worker::execute(arguments),
             Command::Describe(arguments) => describe::execute(arguments),

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use linchpin_proto::v1;
+use serde::{Deserialize, Serialize};
 
 pub use crate::joint::Kind as JointKind;
 use crate::reading::overrides::Override;
@@ -134,7 +135,7 @@ pub struct Output {
 }
 
 /// One panel of the picture of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Panel {
     /// Label of its axis, with the unit.
     pub label: String,
@@ -145,7 +146,7 @@ pub struct Panel {
 }
 
 /// The x axis of a panel whose curves are not over the time.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Over {
     /// The sum of one or more result columns.
     pub column: Vec<String>,

@@ -11,6 +11,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
 use crate::plot::PlotError;
+use crate::results::ReadError;
 use crate::simulate::SimulateError;
 use crate::spectra::FailedCurve;
 use crate::study::StudyError;
@@ -81,6 +82,45 @@ pub enum CommandError {
     /// A picture cannot be drawn.
     #[error(transparent)]
     Plot(#[from] PlotError),
+    /// Results cannot be read back.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// No column of the results is meant.
+    #[error(
+        "no column of {} matches {pattern:?}; there are: {columns}; linchpin plot {} --list says what they show",
+        folder.display(), folder.display()
+    )]
+    NoColumn {
+        /// The folder of results.
+        folder: PathBuf,
+        /// What was asked for.
+        pattern: String,
+        /// Names of the columns, or the first of them.
+        columns: String,
+    },
+    /// A time range that ends before it begins.
+    #[error(
+        "--from {from} is not before --to {to}; give a range of times in s, such as --from 0.2 --to 0.5"
+    )]
+    EmptyRange {
+        /// Its start (s).
+        from: f64,
+        /// Its end (s).
+        to: f64,
+    },
+    /// A choice of columns and times without a point.
+    #[error(
+        "nothing to draw of {}: no row from t = {from} s to {to} s has a finite value of the chosen columns",
+        folder.display()
+    )]
+    NothingToDraw {
+        /// The folder of results.
+        folder: PathBuf,
+        /// Start of the range (s).
+        from: f64,
+        /// Its end (s).
+        to: f64,
+    },
     /// A study has no result.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -214,6 +254,10 @@ impl CommandError {
             | Self::NothingToAnimate
             | Self::NoScene { .. }
             | Self::NoSettings { .. }
+            | Self::Read(_)
+            | Self::NoColumn { .. }
+            | Self::EmptyRange { .. }
+            | Self::NothingToDraw { .. }
             | Self::StudyAmongOthers { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,

@@ -7,6 +7,7 @@ pub mod converge;
 pub mod describe;
 pub mod error;
 pub mod instances;
+pub mod plot;
 pub mod report;
 pub mod run;
 pub mod spectrum;

@@ -13,7 +13,8 @@ use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
 use crate::output::{Ending, OutputFolder, Program, StatusFile};
-use crate::results::{About, RunRecorder, RunReport, draw};
+use crate::plot::Format;
+use crate::results::{About, RunRecorder, RunReport, Target, draw};
 use crate::simulate::simulate;
 
 /// Run a scene; starts the workers it needs and writes results and plots
@@ -76,7 +77,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     };
     if scene.cases.is_empty() {
         let (report, outcome) = job.run(&scene, None, &folder)?;
-        let drawn = job.draw(&scene, &[report]);
+        let drawn = job.draw(&scene, vec![report]);
         outcome.and(drawn)?;
     } else {
         job.run_cases(&scene, &case_folders, &folder)?;
@@ -140,7 +141,7 @@ impl Job<'_> {
                 break;
             }
         }
-        let drawn = self.draw(scene, &reports);
+        let drawn = self.draw(scene, reports);
         let outcome = outcome.and(drawn);
         let cases = CaseStatuses { cases: statuses };
         status.end(&Ending::of(&outcome), Some(cases))?;
@@ -194,7 +195,11 @@ impl Job<'_> {
             }
         };
         let has_begun = recorder.has_begun();
-        let (report, status) = recorder.into_report(statistics);
+        let (mut report, status) = recorder.into_report(statistics);
+        if let Some(recording) = &mut report.recording {
+            recording.case = case.map(str::to_owned);
+            recording.reason = outcome.as_ref().err().map(ToString::to_string);
+        }
         let outcome = outcome.and_then(|()| self.tell(scene, case, &report, &page));
         // Results of an earlier run keep what was said of them.
         if has_begun || is_first {
@@ -225,11 +230,17 @@ impl Job<'_> {
     }
 
     /// The picture of the runs that have recorded something.
-    fn draw(&self, scene: &Scene, reports: &[RunReport]) -> Result<(), CommandError> {
-        let has_rows = |report: &RunReport| !report.traces.is_empty();
-        if self.arguments.no_plots || !reports.iter().any(has_rows) {
+    fn draw(&self, scene: &Scene, reports: Vec<RunReport>) -> Result<(), CommandError> {
+        let recordings: Vec<_> = { reports.into_iter() }
+            .filter_map(|report| report.recording)
+            .collect();
+        if self.arguments.no_plots || recordings.is_empty() {
             return Ok(());
         }
-        draw(scene, reports, &self.pictures)
+        let target = Target {
+            stem: &self.pictures,
+            formats: &Format::ALL,
+        };
+        draw(&scene.name, &recordings, &target).map(|_| ())
     }
 }

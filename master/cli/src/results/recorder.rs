@@ -9,10 +9,10 @@ use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use linchpin_master::workers::Subsystem;
 
-use super::about::{About, ColumnUnit, SubsystemModel};
-use super::figure::traces;
+use super::about::{About, ReportedColumn, SubsystemModel, multiplier_delay};
+use super::recorded::TABLE;
 use super::table::Table;
-use super::{Impacts, RunReport, Trace};
+use super::{Plan, Recording, RunReport};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
@@ -33,15 +33,11 @@ pub struct RunRecorder {
     statistics: Option<Statistics>,
     errors: Option<ErrorMeter>,
     scene: Scene,
-    traces: Vec<Trace>,
-    impacts: Option<Impacts>,
+    recording: Option<Recording>,
     motion: Option<Motion>,
     bar: ProgressBar,
     started: Instant,
 }
-
-/// The table of results.
-const TABLE: &str = "results.csv";
 
 /// The progress bar.
 const BAR: &str = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
@@ -76,8 +72,7 @@ impl RunRecorder {
             statistics: None,
             errors: None,
             scene: scene.clone(),
-            traces: Vec::new(),
-            impacts: None,
+            recording: None,
             motion: None,
             bar: progress::bar(BAR_LENGTH, BAR, shows_progress),
             started: Instant::now(),
@@ -108,8 +103,7 @@ impl RunRecorder {
         let report = RunReport {
             statistics: statistics.or(self.statistics),
             errors: self.errors,
-            traces: self.traces,
-            impacts: self.impacts,
+            recording: self.recording,
             motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
         };
@@ -120,12 +114,6 @@ impl RunRecorder {
         for path in &self.stale {
             remove_stale(path)?;
         }
-        let columns = row.columns().iter().zip(row.units());
-        let columns = columns.map(|(name, unit)| ColumnUnit {
-            name: name.clone(),
-            unit: unit.clone(),
-        });
-        self.status.about.columns = columns.collect();
         // The file of an earlier run says how that ended, which is not so for the table that is begun.
         self.status.running()?;
         let table = Table::create(&self.folder.join(TABLE))?;
@@ -144,8 +132,15 @@ impl Recorder for RunRecorder {
     }
 
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
-        self.traces = traces(&self.scene, row);
-        self.impacts = Some(Impacts::of(&self.scene, row));
+        let columns = ReportedColumn::of_row(row, &self.scene);
+        self.recording = Some(Recording::new(&Plan {
+            span: (self.scene.t_start, self.scene.t_end),
+            multiplier_delay: multiplier_delay(&self.scene),
+            panels: &self.scene.output.panels,
+            columns: &columns,
+            chosen: None,
+        }));
+        self.status.about.columns = columns;
         let closed_form = ClosedForm::of(&self.scene);
         self.errors = closed_form.map(|closed_form| ErrorMeter::new(closed_form, row));
         self.open_table(row)
@@ -164,11 +159,8 @@ impl Recorder for RunRecorder {
     }
 
     fn record(&mut self, row: &Row) -> Result<(), CommandError> {
-        for trace in &mut self.traces {
-            trace.record(row.values());
-        }
-        if let Some(impacts) = &mut self.impacts {
-            impacts.record(row.values());
+        if let Some(recording) = &mut self.recording {
+            recording.record(row.values());
         }
         if let Some(errors) = &mut self.errors {
             errors.add(row);

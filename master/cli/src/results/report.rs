@@ -8,7 +8,7 @@ use linchpin_master::results::{DegreeStatistics, MomentsOf, Statistics, StepStat
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
-use super::{Impacts, Trace};
+use super::Recording;
 use crate::animation::Motion;
 use crate::error_norm::{ColumnError, ErrorMeter};
 
@@ -18,10 +18,8 @@ pub struct RunReport {
     pub statistics: Option<Statistics>,
     /// Errors against the closed form, if the scene has one.
     pub errors: Option<ErrorMeter>,
-    /// Series for the picture.
-    pub traces: Vec<Trace>,
-    /// Impacts inside subsystems; absent before the first row.
-    pub impacts: Option<Impacts>,
+    /// Series and marks for the picture; absent before the first row.
+    pub recording: Option<Recording>,
     /// Positions of the markers, if they were asked for.
     pub motion: Option<Motion>,
     /// Time of the whole run in s.
