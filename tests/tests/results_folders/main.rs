@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod differences;
 mod plots;
 
 use linchpin_tests::process::Workshop;

@@ -5,9 +5,11 @@ use std::path::{Path, PathBuf};
 use linchpin_master::RunError;
 use linchpin_master::connection::StartError;
 use linchpin_master::scene::{Coupling, SceneErrors};
+use linchpin_proto::contract::CallError;
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
+use crate::comparison::ComparisonError;
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
 use crate::plot::PlotError;
@@ -85,6 +87,51 @@ pub enum CommandError {
     /// Results cannot be read back.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// Runs cannot be compared.
+    #[error(transparent)]
+    Comparison(#[from] ComparisonError),
+    /// Runs differ; the comparison is out.
+    #[error("the runs differ: {differences} columns, cases or time spans")]
+    Different {
+        /// How many of them.
+        differences: usize,
+    },
+    /// A file that a template would write is there.
+    #[error("{} is there already, and nothing was written; choose another folder", path.display())]
+    FileThere {
+        /// The file.
+        path: PathBuf,
+    },
+    /// No clone of the repository.
+    #[error(
+        "{} is no clone of Linchpin, which a Rust worker is built with; give one with --source CLONE",
+        path.display()
+    )]
+    NoClone {
+        /// Where one was looked for.
+        path: PathBuf,
+    },
+    /// No built-in model has this name.
+    #[error("there is no built-in model {name:?}; there are: {names}")]
+    NoModel {
+        /// The name.
+        name: String,
+        /// Those that there are.
+        names: String,
+    },
+    /// A built-in model has no parameter of this name.
+    #[error("the model {model} has no parameter {name:?}; it has: {names}")]
+    NoParameter {
+        /// Name of the model.
+        model: String,
+        /// What was given.
+        name: String,
+        /// The parameters that it has.
+        names: String,
+    },
+    /// A built-in model refuses its parameters.
+    #[error("no description: {0}")]
+    Models(CallError),
     /// No column of the results is meant.
     #[error(
         "no column of {} matches {pattern:?}; there are: {columns}; linchpin plot {} --list says what they show",
@@ -255,6 +302,12 @@ impl CommandError {
             | Self::NoScene { .. }
             | Self::NoSettings { .. }
             | Self::Read(_)
+            | Self::FileThere { .. }
+            | Self::NoClone { .. }
+            | Self::NoModel { .. }
+            | Self::Models(_)
+            | Self::NoParameter { .. }
+            | Self::Comparison(_)
             | Self::NoColumn { .. }
             | Self::EmptyRange { .. }
             | Self::NothingToDraw { .. }

@@ -133,6 +133,22 @@ impl Recorded {
         })
     }
 
+    /// What `run.json` says of a run, if the process of this number has written it: without the scene and what is about columns, and
+    /// with the folder.
+    pub fn document_of(folder: &Path, process: u32) -> Option<Value> {
+        let text = fs::read_to_string(folder.join(FILE)).ok()?;
+        let mut document: Value = serde_json::from_str(&text).ok()?;
+        let own = document.as_object_mut()?;
+        if own.get("process") != Some(&process.into()) {
+            return None;
+        }
+        for key in ["scene_text", "columns", "panels", "settings"] {
+            own.remove(key);
+        }
+        own.insert("folder".into(), folder.display().to_string().into());
+        Some(document)
+    }
+
     /// The results of the cases of a scene with cases that have run, in their order; those of one without cases alone.
     ///
     /// # Errors
@@ -155,6 +171,11 @@ impl Recorded {
     /// Name of the scene.
     pub fn scene(&self) -> &str {
         &self.about.scene
+    }
+
+    /// Name of the case of the scene, if it is one.
+    pub fn case(&self) -> Option<&str> {
+        self.about.case.as_deref()
     }
 
     /// All of `run.json`.
