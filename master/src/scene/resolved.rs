@@ -135,7 +135,7 @@ pub struct Output {
 }
 
 /// One panel of the picture of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Panel {
     /// Label of its axis, with the unit.
     pub label: String,
@@ -146,7 +146,7 @@ pub struct Panel {
 }
 
 /// The x axis of a panel whose curves are not over the time.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Over {
     /// The sum of one or more result columns.
     pub column: Vec<String>,

@@ -18,7 +18,7 @@ use crate::methods::{Built, Given, Lacking};
 use crate::policies::columns::{Basis, Columns, Measuring};
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
-use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees, units};
+use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees, described};
 use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, Outputs, Sizes, System};
@@ -83,9 +83,13 @@ impl CoSimulation {
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
         let error = run.errors.of_last_step();
-        let of_step = OfStep { degrees, error };
+        let of_step = OfStep {
+            degrees,
+            error,
+            rejected: 0,
+        };
         let mut row = Row::new(&run.layout, named, shows_step, of_step);
-        row.set_units(units(&row, &run.layout, &models, &joints));
+        row.describe(described(&row, &run.layout, &models, &joints));
         let points: Vec<_> = scene
             .joints
             .iter()
