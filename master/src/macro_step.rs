@@ -9,6 +9,7 @@
 //! * `correcting`: prediction, look-ahead and correction, and what they teach;
 //! * `foreseeing`: how far the step goes, which its error is compared with;
 //! * `jacobian`: conditions and the workers' responses, linearised;
+//! * `impacts`: impulses through the joints;
 //! * `error`: the error of a step, and with it the degrees of the next one;
 //! * `unresolved`: signals that the step does not resolve;
 //! * `rejection`: what may stand against a step;
@@ -18,6 +19,7 @@ mod advance;
 mod correcting;
 mod error;
 mod foreseeing;
+mod impacts;
 mod jacobian;
 mod rejection;
 mod run;
@@ -25,6 +27,7 @@ mod unresolved;
 
 pub(crate) use advance::reach;
 pub(crate) use correcting::{Corrector, State as CorrectorState};
+pub(crate) use impacts::{Colliding, Impacts};
 pub(crate) use jacobian::{Jacobian, PointJacobian};
 pub(crate) use run::Run;
 
@@ -65,6 +68,8 @@ struct Accepted {
     error: Option<Estimate>,
     /// Whether an exchanged variable has jumped.
     has_jumped: bool,
+    /// Whether there was an impact in it.
+    has_impact: bool,
 }
 
 /// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
@@ -81,14 +86,20 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
             estimates,
             error: None,
             has_jumped: false,
+            has_impact: false,
         });
     };
     if let Some(error) = refusal {
         return Err(error.into());
     }
+    let has_impact = own.meets_impacts();
+    if has_impact {
+        own.couple_impacts(step, &mut iteration)?;
+    }
     outcome.solving += own.correct(step)?;
-    let mut has_jumped = false;
-    let step_size = policies.step_size.as_deref();
+    let mut has_jumped = has_impact;
+    // What an impact makes of the error is no matter of the length of the step.
+    let step_size = policies.step_size.as_deref().filter(|_| !has_impact);
     if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
         let next = own.choose_degrees(policies.degrees.as_deref_mut(), step, step_size, &found);
@@ -119,6 +130,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
         estimates,
         error: Some(error).filter(|_| !has_jumped),
         has_jumped,
+        has_impact,
     })
 }
 
@@ -163,6 +175,9 @@ pub(crate) fn look_ahead(
 fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
     run.iteration = accepted.iteration;
     run.iteration.accept(step);
+    if accepted.has_impact {
+        run.iteration.pass_impact();
+    }
     let mut columns = 0.0;
     if let Some((mut own, policies)) = run.correcting() {
         let workers = &mut *own.workers;
@@ -171,6 +186,9 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
             .lend(&mut |curves, _| workers.request_advance(layout, step, curves));
         if accepted.has_jumped {
             own.method.restart_exchanged();
+        }
+        if accepted.has_impact {
+            own.method.restart();
         }
         own.accept(policies.degrees);
         columns = own.cost_of_columns();

@@ -10,8 +10,8 @@ use linchpin_proto::v1;
 pub use crate::joint::Kind as JointKind;
 use crate::reading::overrides::Override;
 pub use coupling::{
-    Coupling, Degree, Increment, Index, Iterations, Jacobian, Loads, Method, Order, Otherwise,
-    Spring, StepControl, Variant,
+    Coupling, Degree, ImpactsAtJoints, Increment, Index, Iterations, Jacobian, Loads, Method,
+    Order, Otherwise, Spring, StepControl, Variant,
 };
 
 /// Who serves a subsystem.

@@ -68,6 +68,10 @@ pub struct Subsystem {
     pub(crate) tolerance: Option<f64>,
     /// Whether its perturbed steps repeat the internal steps of the step that they are compared with.
     pub(crate) repeats_steps: bool,
+    /// Whether it finds impacts that its partners take part in.
+    pub(crate) couples_impacts: bool,
+    /// The impacts of the present macro step, as they are given to it.
+    pub(crate) impacts: Option<v1::Impacts>,
     /// Whether it offers directional derivatives.
     pub(crate) offers_derivatives: bool,
     /// What the solver did so far.
@@ -99,6 +103,8 @@ impl Subsystem {
             outputs: Vec::new(),
             tolerance: None,
             repeats_steps: false,
+            couples_impacts: false,
+            impacts: None,
             offers_derivatives: false,
             work: v1::Work::default(),
             asked: Integrations::default(),

@@ -86,6 +86,17 @@ impl IterationControl {
         self.rule == Jacobian::EveryStep || self.state.is_slow
     }
 
+    /// The look-ahead over the present step has brought new columns after all, because of an impact within it.
+    pub fn bring_columns(&mut self) {
+        self.state.come_next = true;
+        self.state.off_by_length = None;
+    }
+
+    /// The step that was accepted has had an impact: behind it contacts are others, and columns as well.
+    pub fn pass_impact(&mut self) {
+        self.state.is_slow = true;
+    }
+
     /// Decides whether the look-ahead over the `following` step brings new columns, where those that were `found` may be wrong by this
     /// share because they were measured over other lengths; `None` if there are none.
     pub fn decide_columns(&mut self, following: MacroStep, found: Option<f64>) -> bool {

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
+use linchpin_worker::{Impact, Impacts, Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
 
+use super::collided::{Collided, Pace};
 use super::face::{Face, Output};
 use super::observed::{Motion, Observer, PointMotion};
 use super::options::choose;
@@ -14,6 +15,7 @@ use crate::mechanics::fixed::parts;
 use crate::nonsmooth::contact_log::ContactLog;
 use crate::nonsmooth::mechanics::StepError;
 use crate::nonsmooth::mixed::Integrator;
+use crate::nonsmooth::schemes::SchemeKind;
 use crate::nonsmooth::state::Drive;
 use crate::nonsmooth::system::MechanicalSystem;
 
@@ -35,6 +37,8 @@ pub struct Run {
     impulses: Vec<f64>,
     /// Inputs at an instant, as polynomials.
     held: Inputs,
+    /// What collides in a step.
+    collided: Collided,
     accelerations: Vec<f64>,
     /// Memory before a step, and of a snapshot.
     kept: Vec<f64>,
@@ -86,6 +90,7 @@ impl Run {
             kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts],
             impulses: vec![0.0; contacts],
             held: Inputs::constant(&defaults),
+            collided: Collided::new(contacts, choice.scheme == SchemeKind::Moreau),
             last: Interlude {
                 impacts: 0.0,
                 time: setup.t_start(),
@@ -98,7 +103,12 @@ impl Run {
         })
     }
 
-    fn advance(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+    fn advance(
+        &mut self,
+        interval: Interval,
+        inputs: &Inputs,
+        pace: Pace,
+    ) -> Result<(), StepFailure> {
         let parts = parts(interval, self.step)?;
         let dt = interval.length / parts as f64;
         let drive = Drive {
@@ -106,22 +116,33 @@ impl Run {
             inputs,
         };
         self.integrator.begin_interval();
+        self.collided.begin(pace, parts as usize);
+        let before = self.integrator.log;
         if !self.has_started {
-            let started = self.integrator.start(drive);
+            let (collided, integrator) = (&mut self.collided, &mut self.integrator);
+            let started = integrator.start_with(drive, collided.at_start());
             started.map_err(|error| failed(interval.start, error))?;
             self.has_started = true;
+            if self.integrator.log.impacts > before.impacts {
+                self.collided.note(0.0, None, &self.integrator);
+            }
         }
-        let before = self.integrator.log;
         let mut first_impact = None;
         self.impulses.fill(0.0);
         for part in 0..parts {
             // Not added up, so that the last step ends where the interval does.
             self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
+            let end = interval.length * ((part + 1) as f64 / parts as f64);
             let impacts = self.integrator.log.impacts;
-            let stepped = self.integrator.step(drive, dt);
+            let collisions = self.collided.in_step(part as usize, end, dt);
+            let stepped = self.integrator.step_with(drive, dt, collisions);
             let t = interval.start + self.integrator.state.tau;
             stepped.map_err(|error| failed(t, error))?;
+            self.collided
+                .keep_active(part as usize, self.integrator.active());
             if self.integrator.log.impacts > impacts {
+                self.collided
+                    .note(end, Some(part as usize), &self.integrator);
                 first_impact.get_or_insert(t);
                 for (place, impulse) in self.impulses.iter_mut().enumerate() {
                     let row = self.integrator.mechanics.first_row(place);
@@ -136,6 +157,21 @@ impl Run {
             impulse: log.impulse - before.impulse,
         };
         Ok(())
+    }
+
+    /// A step that fails leaves the state as it was.
+    fn try_advance(
+        &mut self,
+        interval: Interval,
+        inputs: &Inputs,
+        pace: Pace,
+    ) -> Result<(), StepFailure> {
+        self.keep();
+        let advanced = self.advance(interval, inputs, pace);
+        if advanced.is_err() {
+            self.recall();
+        }
+        advanced
     }
 
     /// All numbers that later steps and outputs depend on.
@@ -279,12 +315,30 @@ fn failed(t: f64, error: StepError) -> StepFailure {
 
 impl Subsystem for Run {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
-        self.keep();
-        let advanced = self.advance(interval, inputs);
-        if advanced.is_err() {
-            self.recall();
-        }
-        advanced
+        self.try_advance(interval, inputs, Pace::Own)
+    }
+
+    /// Closes and collides as the last step did: what another pattern of contacts makes of a perturbation is no derivative.
+    fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+        self.try_advance(interval, inputs, Pace::Repeated)
+    }
+
+    fn impulse(&mut self, t: f64, inputs: &[f64], impulses: &[f64]) -> Result<(), StepFailure> {
+        self.hold(inputs);
+        let drive = Drive {
+            start: t - self.integrator.state.tau,
+            inputs: &self.held,
+        };
+        let jumped = self.integrator.take_impulse(drive, impulses);
+        jumped.map_err(|error| failed(t, error))
+    }
+
+    fn treat_impacts(&mut self, impacts: &Impacts) -> Result<(), StepFailure> {
+        self.collided.treat(impacts)
+    }
+
+    fn impacts(&self) -> &[Impact] {
+        self.collided.impacts()
     }
 
     fn outputs(
