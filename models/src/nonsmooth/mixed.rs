@@ -10,6 +10,7 @@ use self::growth::Growth;
 use super::activity::closed_contacts;
 use super::contact_log::ContactLog;
 use super::impact::{self, AtJoints};
+use super::matrix::add_scaled;
 use super::mechanics::{Mechanics, Settings, StepError};
 use super::schemes::{Outcome, Scheme, SchemeError, SchemeKind};
 use super::start::{Contacts, accelerate};
@@ -230,6 +231,25 @@ impl Integrator {
         let (mechanics, closed) = (&mut self.mechanics, &mut self.closed);
         accelerate(mechanics, drive, Contacts::Acting, closed, &mut self.next)?;
         Ok(&self.next.a)
+    }
+
+    /// The inputs jump here, from those of one drive to those of another: accelerations and forces jump with them. What the scheme keeps of
+    /// earlier accelerations beside that stays.
+    ///
+    /// # Errors
+    /// [`StepError`].
+    pub fn pass_jump(&mut self, before: Drive<'_>, behind: Drive<'_>) -> Result<(), StepError> {
+        let mut jump = self.accelerations(before)?.to_vec();
+        self.accelerations(behind)?;
+        for (jump, behind) in jump.iter_mut().zip(&self.next.a) {
+            *jump = behind - *jump;
+        }
+        self.state.forces.copy_from_slice(&self.next.forces);
+        for own in [&mut self.state.a, &mut self.state.auxiliary] {
+            add_scaled(1.0, &jump, own);
+        }
+        self.friction_power = self.friction_power_of_next();
+        Ok(())
     }
 
     /// Velocities before the impulses of the last step, if it had any that corrected it: then

@@ -37,6 +37,9 @@ pub struct Run {
     impulses: Vec<f64>,
     /// Inputs at an instant, as polynomials.
     held: Inputs,
+    /// Values of the inputs at the end of the last step, and at the start of the present one.
+    at_end: Vec<f64>,
+    at_start: Vec<f64>,
     /// What collides in a step.
     collided: Collided,
     accelerations: Vec<f64>,
@@ -87,9 +90,14 @@ impl Run {
         Ok(Self {
             outputs: outputs.into_iter().map(|(output, _)| output).collect(),
             accelerations: vec![0.0; integrator.state.q.len()],
-            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts],
+            kept: vec![
+                0.0;
+                integrator.memory_len() + OWN_NUMBERS + contacts + defaults.len()
+            ],
             impulses: vec![0.0; contacts],
             held: Inputs::constant(&defaults),
+            at_start: defaults.clone(),
+            at_end: defaults.clone(),
             collided: Collided::new(contacts, choice.scheme == SchemeKind::Moreau),
             last: Interlude {
                 impacts: 0.0,
@@ -122,11 +130,13 @@ impl Run {
             let (collided, integrator) = (&mut self.collided, &mut self.integrator);
             let started = integrator.start_with(drive, collided.at_start());
             started.map_err(|error| failed(interval.start, error))?;
+            inputs.values_at(0.0, &mut self.at_end);
             self.has_started = true;
             if self.integrator.log.impacts > before.impacts {
                 self.collided.note(0.0, None, &self.integrator);
             }
         }
+        self.begin_inputs(drive)?;
         let mut first_impact = None;
         self.impulses.fill(0.0);
         for part in 0..parts {
@@ -150,6 +160,7 @@ impl Run {
                 }
             }
         }
+        drive.inputs.values_at(interval.length, &mut self.at_end);
         let log = self.integrator.log;
         self.last = Interlude {
             impacts: (log.impacts - before.impacts) as f64,
@@ -157,6 +168,23 @@ impl Run {
             impulse: log.impulse - before.impulse,
         };
         Ok(())
+    }
+
+    /// Takes over the inputs at the start of a step, which may differ from those at the end of the last one.
+    fn begin_inputs(&mut self, drive: Drive<'_>) -> Result<(), StepFailure> {
+        drive.inputs.values_at(0.0, &mut self.at_start);
+        if self.at_start == self.at_end {
+            return Ok(());
+        }
+        let at_end = std::mem::take(&mut self.at_end);
+        self.hold(&at_end);
+        self.at_end = at_end;
+        let before = Drive {
+            start: drive.start,
+            inputs: &self.held,
+        };
+        let passed = self.integrator.pass_jump(before, drive);
+        passed.map_err(|error| failed(drive.start, error))
     }
 
     /// A step that fails leaves the state as it was.
@@ -189,6 +217,7 @@ impl Run {
             impulse,
         ]);
         put(&self.impulses);
+        put(&self.at_end);
     }
 
     /// Keeps what [`Run::recall`] goes back to.
@@ -201,7 +230,8 @@ impl Run {
 
     fn recall(&mut self) {
         let own = self.integrator.recall(&self.kept);
-        if let &[has_started, impacts, time, impulse, ref impulses @ ..] = own {
+        if let &[has_started, impacts, time, impulse, ref rest @ ..] = own {
+            let (impulses, at_end) = rest.split_at(self.impulses.len());
             self.has_started = has_started == 1.0;
             self.last = Interlude {
                 impacts,
@@ -209,6 +239,7 @@ impl Run {
                 impulse,
             };
             self.impulses.copy_from_slice(impulses);
+            self.at_end.copy_from_slice(at_end);
         }
     }
 
