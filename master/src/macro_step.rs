@@ -50,6 +50,7 @@ pub(crate) fn macro_step(run: &mut Run, first: MacroStep) -> Result<Outcome, Run
         }
     };
     let step = outcome.step;
+    outcome.has_impact = accepted.has_impact;
     let wish = accept(run, step, accepted);
     let following = run.plan.following(wish);
     advance(run, step, following)?;
@@ -118,7 +119,9 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
     let error = own.likely_error(step, policies.errors);
     let tolerance = policies.tolerance();
     own.begin(&mut iteration, step, tolerance);
-    while let Some(with_columns) = iteration.next_pass() {
+    // A step with an impact has taken two more exchanges, and has new columns.
+    let may_pass = !has_impact || iteration.has_rule();
+    while let Some(with_columns) = iteration.next_pass().filter(|_| may_pass) {
         own.look_again(step, with_columns)?;
         outcome.solving += own.correct(step)?;
         iteration.note_pass(own.size_of_change(step, tolerance), with_columns);

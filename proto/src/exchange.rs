@@ -96,6 +96,13 @@ pub fn check_impacts(impacts: &Impacts, step: f64, signals: usize) -> Result<(),
     Ok(())
 }
 
+/// Whether an impact `at` (s) after the start of a step happens in the part of it that is `length` (s) long. Where a part ends at an impact but
+/// for rounding, the impact belongs to it.
+pub fn is_until(at: f64, length: f64) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    at <= length * (1.0 + ROUNDING)
+}
+
 /// An interface has as many numbers as its rows and the `signals` ask for, all finite.
 ///
 /// # Errors

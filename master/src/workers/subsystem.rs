@@ -135,7 +135,10 @@ impl Subsystem {
             solver_steps: work.steps,
             time_in_solver: work.nanoseconds as f64 * 1e-9,
             unresolved,
-            contacts: work.contacts.map(ContactStatistics::from),
+            contacts: work.contacts.map(|contacts| ContactStatistics {
+                crosses_joints: self.couples_impacts,
+                ..contacts.into()
+            }),
         }
     }
 

@@ -1,7 +1,7 @@
 //! One exchange as unary calls.
 
 use linchpin_proto::contract::{CallError, Contract};
-use linchpin_proto::exchange::{check_evaluation, check_samples};
+use linchpin_proto::exchange::{check_evaluation, check_samples, is_until};
 use linchpin_proto::v1::*;
 
 use super::place::Place;
@@ -111,7 +111,10 @@ impl<'a, C: Contract> Turn<'a, C> {
         for &sample in &advance.samples {
             let mut shorter = step(sample);
             if let Some(Impacts { impacts }) = &mut shorter.impacts {
-                impacts.retain(|impact| impact.at <= sample);
+                impacts.retain(|impact| is_until(impact.at, sample));
+                for impact in impacts {
+                    impact.at = impact.at.min(sample);
+                }
             }
             let outputs = self.step_from(start, shorter)?.outputs;
             reply.samples.push(outputs.unwrap_or_default());

@@ -1,12 +1,10 @@
 //! What collides in the steps of a subsystem: found, given, or as in the step before.
 
+use linchpin_proto::exchange::is_until;
 use linchpin_worker::{Impact, Impacts, StepFailure};
 
 use crate::nonsmooth::mixed::{Collision, Collisions, Integrator};
 use crate::nonsmooth::partners::Partners;
-
-/// A given impact this much of an internal step behind the end of it belongs to it.
-const ROUNDING: f64 = 1e-6;
 
 /// Whose closing and colliding a step has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -143,8 +141,8 @@ impl Collided {
         }
     }
 
-    /// What collides in internal step number `part`, `dt` long, which ends at `end`, s after the start of the step.
-    pub fn in_step(&mut self, part: usize, end: f64, dt: f64) -> Collisions<'_> {
+    /// What collides in internal step number `part`, which ends at `end`, s after the start of the step.
+    pub fn in_step(&mut self, part: usize, end: f64) -> Collisions<'_> {
         match (self.pace, &mut self.treatment) {
             (Pace::Repeated, _) => {
                 let next = self.noted.get(self.done);
@@ -158,7 +156,7 @@ impl Collided {
             (Pace::Own, Treatment::Found(partners)) => Collisions::Found(partners.as_mut()),
             (Pace::Own, Treatment::Given(given)) => {
                 let next = given.get(self.done);
-                let next = next.filter(|next| next.impact.at <= end + ROUNDING * dt);
+                let next = next.filter(|next| is_until(next.impact.at, end));
                 Collisions::Given(next.map(Noted::collision))
             }
         }

@@ -90,10 +90,7 @@ impl Run {
         Ok(Self {
             outputs: outputs.into_iter().map(|(output, _)| output).collect(),
             accelerations: vec![0.0; integrator.state.q.len()],
-            kept: vec![
-                0.0;
-                integrator.memory_len() + OWN_NUMBERS + contacts + defaults.len()
-            ],
+            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts + defaults.len()],
             impulses: vec![0.0; contacts],
             held: Inputs::constant(&defaults),
             at_start: defaults.clone(),
@@ -144,7 +141,7 @@ impl Run {
             self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
             let end = interval.length * ((part + 1) as f64 / parts as f64);
             let impacts = self.integrator.log.impacts;
-            let collisions = self.collided.in_step(part as usize, end, dt);
+            let collisions = self.collided.in_step(part as usize, end);
             let stepped = self.integrator.step_with(drive, dt, collisions);
             let t = interval.start + self.integrator.state.tau;
             stepped.map_err(|error| failed(t, error))?;

@@ -3,7 +3,7 @@
 //! A look-ahead and its perturbed ones go from instant to instant side by side: between two instants the perturbed ones repeat the
 //! internal steps of the one that is not perturbed, from states of their own.
 
-use linchpin_proto::exchange::check_instants;
+use linchpin_proto::exchange::{check_instants, is_until};
 use linchpin_proto::v1::{self, Failure};
 
 use super::look_ahead::{Horizon, Sequence};
@@ -67,7 +67,7 @@ impl<'a> Iterator for Parts<'a> {
         let [instants, strikes] = &mut self.done;
         let instant = self.instants.get(*instants).copied();
         let strike = self.strikes.get(*strikes);
-        let strike = strike.filter(|strike| strike.at <= self.length);
+        let strike = strike.filter(|strike| is_until(strike.at, self.length));
         let (to, at_end) = match (instant, strike) {
             (Some(instant), strike) if strike.is_none_or(|strike| instant <= strike.at) => {
                 *instants += 1;
@@ -75,7 +75,7 @@ impl<'a> Iterator for Parts<'a> {
             }
             (_, Some(strike)) => {
                 *strikes += 1;
-                (strike.at, AtEnd::Impact(&strike.loads))
+                (strike.at.min(self.length), AtEnd::Impact(&strike.loads))
             }
             (_, None) => {
                 self.is_over = true;
