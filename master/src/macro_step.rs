@@ -44,7 +44,7 @@ use rejection::Rejection;
 pub(crate) fn macro_step(run: &mut Run, first: MacroStep) -> Result<Outcome, RunError> {
     let mut outcome = Outcome::of_step(first);
     let accepted = loop {
-        match attempt(run, &mut outcome) {
+        match attempt(run, &mut outcome, first.length) {
             Ok(accepted) => break accepted,
             Err(rejection) => repeat(run, rejection, &mut outcome)?,
         }
@@ -75,7 +75,10 @@ struct Accepted {
 
 /// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
 /// what the error belongs to, and cost exchanges.
-fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> {
+///
+/// A step that was `longest` (s) at the first attempt is no more shortened for the error of an impact in it where it has become so much shorter
+/// that it is the impact's own.
+fn attempt(run: &mut Run, outcome: &mut Outcome, longest: f64) -> Result<Accepted, Rejection> {
     let step = outcome.step;
     let mut iteration = run.iteration;
     let mut estimates = None;
@@ -95,16 +98,16 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
     }
     let has_impact = own.meets_impacts();
     if has_impact {
-        own.couple_impacts(step, &mut iteration)?;
+        own.couple_impacts(step, &mut iteration, policies.degrees.as_deref_mut())?;
     }
     outcome.solving += own.correct(step)?;
     let mut has_jumped = has_impact;
-    // What an impact makes of the error is no matter of the length of the step.
-    let step_size = policies.step_size.as_deref().filter(|_| !has_impact);
+    let step_size = policies.step_size.as_deref();
     if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
         let next = own.choose_degrees(policies.degrees.as_deref_mut(), step, step_size, &found);
-        if step_size.is_too_long(step, &found) {
+        let may_be_shorter = !has_impact || step_size.may_follow_impact(step, longest);
+        if may_be_shorter && step_size.is_too_long(step, &found) {
             return Err(Rejection::by_error(
                 own.layout,
                 step,
@@ -112,7 +115,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
                 [found, next],
             ));
         }
-        has_jumped = step_size.is_jump(step, &found);
+        has_jumped |= step_size.is_jump(step, &found);
         estimates = Some([found, next]);
     }
     own.foresee(policies.errors);
@@ -200,6 +203,7 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         }
     }
     match (&mut run.step_size, accepted.estimates) {
+        (Some(step_size), _) if accepted.has_impact => step_size.pass_break(step),
         (Some(step_size), _) if accepted.has_jumped => step_size.pass_jump(step),
         (Some(step_size), Some([found, next])) => {
             step_size.accept(step, &next, next == found, columns)

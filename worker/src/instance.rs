@@ -153,7 +153,7 @@ impl Instance {
         Ok(v1::StepReply {
             outputs: Some(outputs),
             work: Some(meter.stop(&self.motion)),
-            impacts: self.motion.found_impacts(),
+            impacts: self.motion.found_impacts(&request.instants),
             ..v1::StepReply::default()
         })
     }

@@ -26,6 +26,7 @@ use super::correcting::Correcting;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{DrivenInput, Layout};
+use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
 use crate::signal::Curves;
 use crate::system::unknowns::Unknowns;
@@ -220,6 +221,7 @@ impl Correcting<'_> {
         &mut self,
         step: MacroStep,
         iteration: &mut IterationControl,
+        degrees: Option<&mut AutomaticDegrees>,
     ) -> Result<(), RunError> {
         self.linearise();
         let Some(impacts) = self.impacts.as_deref_mut() else {
@@ -234,6 +236,12 @@ impl Correcting<'_> {
         let struck = impacts.struck(self.workers);
         let mobilities: Vec<_> = struck.iter().map(|own| impacts.mobility(own)).collect();
         iteration.bring_columns();
+        // What jumps has no high derivatives.
+        if let Some(degrees) = degrees {
+            degrees.restart();
+            self.apply(degrees);
+            self.predict(step);
+        }
         self.request_look_at_impacts(step);
 
         let all = || struck.iter().zip(&mobilities);

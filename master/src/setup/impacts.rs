@@ -119,12 +119,6 @@ fn check_coupling(scene: &Scene, layout: &Layout, finder: usize) -> Result<(), R
             "choose index 2 or 1, or method hermite",
         );
     }
-    if layout.inside.is_told() {
-        let message = format!(
-            "\"{name}\" has impacts, and steps with impacts are not looked at inside, which this degree asks for"
-        );
-        return refuse("coupling.degree", message, "choose coupling.degree = 2");
-    }
     Ok(())
 }
 

@@ -88,7 +88,7 @@ impl Instance {
         match &request.predict {
             Some(predict) => {
                 self.look_ahead(base, predict, predicted)?;
-                reply.impacts = self.motion.found_impacts();
+                reply.impacts = self.motion.found_impacts(&predict.instants);
             }
             None => predicted.clear(),
         }

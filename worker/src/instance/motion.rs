@@ -169,6 +169,7 @@ impl Motion {
         if self.is_struck() {
             self.step_to_sample(interval)?;
         } else {
+            self.begin_part([0.0, interval.length])?;
             self.integrate(interval, Sequence::Own)?;
         }
         self.read(interval, v1::OutputSet::All, values)

@@ -224,6 +224,9 @@ impl Motion {
         if own.length <= 0.0 {
             return Ok(());
         }
+        if sequence == Sequence::Own {
+            self.begin_part([part.from, part.to])?;
+        }
         let inputs = self.signals.inputs_from(part.from);
         self.stands_at = NOWHERE;
         self.last_step = None;
@@ -231,7 +234,11 @@ impl Motion {
             Sequence::Own => self.subsystem.step(own, inputs),
             Sequence::Repeated => self.subsystem.perturbed_step(own, inputs),
         };
-        done.map_err(|failure| tell(failure, interval.start, interval.length))
+        done.map_err(|failure| tell(failure, interval.start, interval.length))?;
+        if sequence == Sequence::Own {
+            self.end_impacts_of_part(part.from);
+        }
+        Ok(())
     }
 
     /// Reads what is wanted at the end of a part to its place among `values`, adds the integrals over it, and lets velocities jump there.

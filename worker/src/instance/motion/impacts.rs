@@ -1,6 +1,6 @@
 //! Impacts within steps: handed to a solver that finds such itself; at any other one steps are cut there, and loads have impulses.
 
-use linchpin_proto::exchange::{check_impacts, check_interface};
+use linchpin_proto::exchange::{check_impacts, check_interface, is_until};
 use linchpin_proto::v1::{self, Failure};
 
 use super::{Motion, tell};
@@ -14,6 +14,10 @@ pub(super) struct Treated {
     is_told: bool,
     /// Impulses at a solver that finds none itself, in the order of their instants.
     pub(super) strikes: Vec<Impact>,
+    /// The impacts that are given to a solver that finds such.
+    given: Option<Vec<Impact>>,
+    /// Those that it has found in the parts of a step that is cut.
+    found: Vec<Impact>,
 }
 
 impl Treated {
@@ -25,6 +29,8 @@ impl Treated {
             takes_impulses: capabilities.impulses,
             is_told: false,
             strikes: Vec::new(),
+            given: None,
+            found: Vec::new(),
         }
     }
 }
@@ -38,6 +44,8 @@ impl Motion {
         interface: Option<&v1::Interface>,
     ) -> Result<(), Failure> {
         self.treated.strikes.clear();
+        self.treated.given = None;
+        self.treated.found.clear();
         if impacts.is_none() && interface.is_none() && !self.treated.is_told {
             return Ok(());
         }
@@ -62,6 +70,9 @@ impl Motion {
         if self.treated.finds {
             self.treated.is_told = how != Impacts::Alone;
             let told = self.subsystem.treat_impacts(&how);
+            if let Impacts::Given(given) = how {
+                self.treated.given = Some(given);
+            }
             return told.map_err(|failure| Failure::misuse("impacts", failure.to_string()));
         }
         match how {
@@ -82,6 +93,34 @@ impl Motion {
         }
     }
 
+    /// Lets the solver have those of its impacts that are in a part of the step, from and to these times after its start.
+    pub(super) fn begin_part(&mut self, [from, to]: [f64; 2]) -> Result<(), Failure> {
+        let Some(given) = &self.treated.given else {
+            return Ok(());
+        };
+        let is_inside =
+            |impact: &&Impact| is_until(impact.at, to) && (from == 0.0 || !is_until(impact.at, from));
+        let own = given.iter().filter(is_inside).map(|impact| Impact {
+            at: (impact.at - from).max(0.0),
+            ..impact.clone()
+        });
+        let told = self
+            .subsystem
+            .treat_impacts(&Impacts::Given(own.collect()));
+        told.map_err(|failure| Failure::misuse("impacts", failure.to_string()))
+    }
+
+    /// Keeps the impacts that the solver has found in a part of the step that began at this time after its start.
+    pub(super) fn end_impacts_of_part(&mut self, from: f64) {
+        if self.treated.finds {
+            let found = self.subsystem.impacts().iter().map(|impact| Impact {
+                at: from + impact.at,
+                ..impact.clone()
+            });
+            self.treated.found.extend(found);
+        }
+    }
+
     /// Whether loads have impulses within the steps that follow.
     pub(super) fn is_struck(&self) -> bool {
         !self.treated.strikes.is_empty()
@@ -92,8 +131,8 @@ impl Motion {
         !instants.is_empty() || self.is_struck()
     }
 
-    /// The impacts of the last step as an answer tells them; `None` from a model that finds none.
-    pub(in crate::instance) fn found_impacts(&self) -> Option<v1::Impacts> {
+    /// The impacts of the last step, cut at `instants` or not, as an answer tells them; `None` from a model that finds none.
+    pub(in crate::instance) fn found_impacts(&self, instants: &[f64]) -> Option<v1::Impacts> {
         let tell = |impact: &Impact| v1::Impact {
             at: impact.at,
             contacts: impact
@@ -104,8 +143,12 @@ impl Motion {
             loads: Vec::new(),
             multipliers: impact.multipliers.clone(),
         };
+        let found = match instants {
+            [] => self.subsystem.impacts(),
+            _ => &self.treated.found,
+        };
         self.treated.finds.then(|| v1::Impacts {
-            impacts: self.subsystem.impacts().iter().map(tell).collect(),
+            impacts: found.iter().map(tell).collect(),
         })
     }
 
