@@ -184,8 +184,11 @@ impl Instance {
         let (mut outputs, mut derivatives) = (Vec::new(), Vec::new());
         self.motion.set_signals(&request.signals)?;
         self.motion.integrate_outputs(request.integrals)?;
-        self.motion
-            .treat_impacts(request.step, request.impacts.as_ref(), None)?;
+        self.motion.treat_impacts(
+            request.step,
+            request.impacts.as_ref(),
+            request.interface.as_ref(),
+        )?;
         match self.motion.is_cut(&request.instants) {
             false => self.motion.look_ahead_perturbed(
                 Base::Committed,

@@ -109,6 +109,12 @@ fn check_coupling(scene: &Scene, layout: &Layout, finder: usize) -> Result<(), R
             "choose hermite, weighted or baumgarte",
         );
     }
+    if !scene.coupling.method.parameters().forgets_loads() {
+        let message = format!(
+            "\"{name}\" has impacts, and this variant goes on with the loads of the step before, which an impact changes"
+        );
+        return refuse("coupling.variant", message, "choose variant \"apv\"");
+    }
     if layout.level < Level::Velocity {
         let message = format!(
             "\"{name}\" has impacts, and with index 3 the coupling knows no velocities that could jump"

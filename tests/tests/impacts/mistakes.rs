@@ -45,12 +45,9 @@ fn an_index_without_velocities() {
 }
 
 #[test]
-fn steps_that_are_looked_at_inside() {
-    refused(
-        SPLIT,
-        &["coupling.degree=3"],
-        &["coupling.degree", "choose coupling.degree = 2"],
-    );
+fn a_variant_that_keeps_the_last_load() {
+    let words = ["coupling.variant", "\"slider\"", "variant \"apv\""];
+    refused(SPLIT, &["coupling.variant=c0pv"], &words);
 }
 
 #[test]

@@ -182,6 +182,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             instants: predict.instants.clone(),
             integrals: predict.integrals,
             impacts: predict.impacts.clone(),
+            interface: predict.interface.clone(),
         })?;
         self.count(answer.work);
         ahead.perturbed = answer.outputs;

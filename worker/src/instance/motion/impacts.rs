@@ -98,15 +98,14 @@ impl Motion {
         let Some(given) = &self.treated.given else {
             return Ok(());
         };
-        let is_inside =
-            |impact: &&Impact| is_until(impact.at, to) && (from == 0.0 || !is_until(impact.at, from));
+        let is_inside = |impact: &&Impact| {
+            is_until(impact.at, to) && (from == 0.0 || !is_until(impact.at, from))
+        };
         let own = given.iter().filter(is_inside).map(|impact| Impact {
             at: (impact.at - from).max(0.0),
             ..impact.clone()
         });
-        let told = self
-            .subsystem
-            .treat_impacts(&Impacts::Given(own.collect()));
+        let told = self.subsystem.treat_impacts(&Impacts::Given(own.collect()));
         told.map_err(|failure| Failure::misuse("impacts", failure.to_string()))
     }
 
