@@ -9,6 +9,7 @@ mod driver;
 mod evaluations;
 mod exchange;
 mod going_back;
+mod impacts;
 mod initialize;
 mod instances;
 mod instants;
