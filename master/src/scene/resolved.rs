@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 pub use crate::joint::Kind as JointKind;
 use crate::reading::overrides::Override;
 pub use coupling::{
-    Coupling, Degree, Increment, Index, Iterations, Jacobian, Loads, Method, Order, Otherwise,
-    Spring, StepControl, Variant,
+    Coupling, Degree, ImpactsAtJoints, Increment, Index, Iterations, Jacobian, Loads, Method,
+    Order, Otherwise, Spring, StepControl, Variant,
 };
 
 /// Who serves a subsystem.

@@ -222,6 +222,13 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
         causes.corrector,
         causes.samples
     )?;
+    if corrections.steps_with_impacts > 0 {
+        writeln!(
+            text,
+            "    in {} macro steps with impacts that partners took part in: {} more",
+            corrections.steps_with_impacts, causes.impacts
+        )?;
+    }
     if causes.sum() != statistics.integrations {
         writeln!(
             text,

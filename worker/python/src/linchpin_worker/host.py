@@ -24,7 +24,7 @@ from .subsystem import Subsystem, check_model
 Made = TypeVar("Made")
 Reply = TypeVar("Reply", pb.SnapshotReply, pb.RestoreReply, pb.StepReply, pb.PerturbedStepReply)
 
-PROTOCOL = pb.ProtocolVersion(major=1, minor=3)
+PROTOCOL = pb.ProtocolVersion(major=1, minor=4)
 
 
 @dataclass(frozen=True)
