@@ -3,7 +3,7 @@
 use linchpin_proto::v1;
 
 use super::all::Workers;
-use super::recovery::look;
+use super::varying::look;
 use crate::error::RunError;
 use crate::time::MacroStep;
 
