@@ -29,8 +29,9 @@ pub trait Recorder {
     /// One recorded macro point, the first one included.
     fn record(&mut self, row: &Row) -> Result<(), Self::Error>;
 
-    /// After every macro step, recorded or not: the time that is reached.
-    fn progress(&mut self, _t: f64) {}
+    /// After every macro step, recorded or not: the time that is reached, and how many attempts were repeated with a shorter step
+    /// since the start.
+    fn progress(&mut self, _t: f64, _rejected: u64) {}
 
     /// The run stops early: what it has cost so far.
     fn stop(&mut self, _statistics: Statistics) {}
@@ -101,7 +102,7 @@ fn to_its_end<R: Recorder>(
         .map_err(|error| stopped(interrupt, simulation.t(), error))?
     {
         record(scene, simulation, recorder)?;
-        recorder.progress(simulation.t());
+        recorder.progress(simulation.t(), simulation.rejected());
         if let Some(story) = story {
             story.go_on(simulation);
         }
