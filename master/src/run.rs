@@ -70,11 +70,9 @@ impl CoSimulation {
 
     /// What is told of the last macro step.
     fn of_step(&mut self) -> OfStep {
-        let steps = self.run.step_size.as_ref().and_then(StepSize::statistics);
         OfStep {
             degrees: self.degrees(),
             error: self.run.errors.of_last_step(),
-            rejected: steps.map_or(0, |steps| steps.rejected),
         }
     }
 
@@ -91,6 +89,12 @@ impl CoSimulation {
     /// Time of the present macro point.
     pub fn t(&self) -> f64 {
         self.run.plan.t()
+    }
+
+    /// Number of attempts at macro steps so far that were repeated with a shorter one.
+    pub fn rejected(&self) -> u64 {
+        let steps = self.run.step_size.as_ref().and_then(StepSize::statistics);
+        steps.map_or(0, |steps| steps.rejected)
     }
 
     /// Number of macro steps done.

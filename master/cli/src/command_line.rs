@@ -4,7 +4,8 @@ use clap::{ArgAction, Parser, Subcommand};
 use tracing::level_filters::LevelFilter;
 
 use crate::commands::{
-    CommandError, check, completions, conformance, converge, describe, diff, graph, health, init,
+    CommandError, check, completions, conformance, converge, describe, diff, export, graph, health,
+    init,
     instances, man, models, plot, report, run, spectrum, stability, worker,
 };
 use crate::log::Filter;
@@ -51,6 +52,7 @@ enum Command {
     Run(run::Arguments),
     Plot(plot::Arguments),
     Diff(diff::Arguments),
+    Export(export::Arguments),
     Check(check::Arguments),
     Models(models::Arguments),
     Init(init::Arguments),
@@ -84,6 +86,7 @@ impl Arguments {
         match &self.command {
             Command::Run(arguments) => run::execute(arguments),
             Command::Plot(arguments) => plot::execute(arguments),
+            Command::Export(arguments) => export::execute(arguments),
             Command::Diff(arguments) => diff::execute(arguments),
             Command::Check(arguments) => check::execute(arguments),
             Command::Init(arguments) => init::execute(arguments),

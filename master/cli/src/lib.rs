@@ -8,6 +8,7 @@
 //! * [`comparison`]: two runs compared;
 //! * [`closed_form`]: the exact solution of scenes that have one;
 //! * [`error_norm`]: errors of a run;
+//! * [`export`]: results for other programs;
 //! * [`files`]: tables and texts;
 //! * [`graph`]: what a scene couples, as a picture;
 //! * [`output`]: the folder that a command writes to, and how `run.json` says that it stands;
@@ -30,6 +31,7 @@ pub mod conformance;
 pub mod connect;
 pub mod diagnostics;
 pub mod error_norm;
+pub mod export;
 pub mod files;
 pub mod graph;
 mod html;

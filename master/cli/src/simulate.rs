@@ -30,8 +30,9 @@ pub trait Recorder {
     /// One recorded macro point, the first one included.
     fn record(&mut self, row: &Row) -> Result<(), Self::Error>;
 
-    /// After every macro step, recorded or not: the time that is reached.
-    fn progress(&mut self, _t: f64) {}
+    /// After every macro step, recorded or not: the time that is reached, and how many attempts were repeated with a shorter step
+    /// since the start.
+    fn progress(&mut self, _t: f64, _rejected: u64) {}
 
     /// Asked before [`Recorder::begin`]: the checkpoint that the run goes on from, if it does. Then the row of the start is not recorded.
     fn resume(&mut self) -> Option<Checkpoint> {
@@ -155,7 +156,7 @@ fn to_its_end<R: Recorder>(
         .map_err(|error| stopped(interrupt, simulation.t(), error))?
     {
         record(scene, simulation, recorder)?;
-        recorder.progress(simulation.t());
+        recorder.progress(simulation.t(), simulation.rejected());
         if recorder.wants_checkpoint() && !simulation.is_finished() {
             let checkpoint = simulation.checkpoint();
             taken(recorder.checkpoint(simulation.t(), checkpoint))?;

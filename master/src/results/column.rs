@@ -62,8 +62,6 @@ pub enum Quantity {
     Degree,
     /// Estimated error of the macro step.
     ErrorEstimate,
-    /// Repeated attempts.
-    Rejections,
 }
 
 /// First component of the unit quaternion in the position of a spatial marker.

@@ -16,9 +16,6 @@ const EXCHANGED_DEGREE: &str = "exchanged_degree";
 /// The column of the errors that steps are estimated to make, as shares of the motion so far.
 const ERROR: &str = "error_estimate";
 
-/// The column of the attempts that were repeated with a shorter step, counted from the start of the run.
-const REJECTED: &str = "rejected";
-
 /// What a row tells of its macro step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct OfStep {
@@ -26,8 +23,6 @@ pub struct OfStep {
     pub degrees: StepDegrees,
     /// Its estimated error as a share of the motion so far; not known where the method has no corrector.
     pub error: Option<f64>,
-    /// Attempts since the start of the run that were repeated with a shorter step; a column where steps vary.
-    pub rejected: u64,
 }
 
 /// Time, outputs, multipliers and residuals at one macro point, in the order of the result columns.
@@ -55,7 +50,7 @@ impl Row {
         layout: &Layout,
         subsystems: impl Iterator<Item = (&'a str, &'a [String])>,
         shows_step: bool,
-        OfStep { degrees, error, .. }: OfStep,
+        OfStep { degrees, error }: OfStep,
     ) -> Self {
         let mut columns = vec!["t".to_owned()];
         let mut first_outputs = Vec::new();
@@ -88,7 +83,6 @@ impl Row {
             (degrees.multipliers.is_some(), DEGREE),
             (degrees.exchanged.is_some(), EXCHANGED_DEGREE),
             (error.is_some(), ERROR),
-            (shows_step, REJECTED),
         ];
         let of_step = of_step.into_iter().filter(|(is_shown, _)| *is_shown);
         columns.extend(of_step.map(|(_, name)| name.to_owned()));
@@ -112,11 +106,7 @@ impl Row {
     pub(crate) fn read<'a>(
         &mut self,
         step: MacroStep,
-        OfStep {
-            degrees,
-            error,
-            rejected,
-        }: OfStep,
+        OfStep { degrees, error }: OfStep,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64],
         multipliers: &[f64],
@@ -142,15 +132,11 @@ impl Row {
         let degrees = degrees.into_iter().flatten();
         self.values.extend(degrees.map(|degree| degree as f64));
         self.values.extend(error);
-        if self.shows_step {
-            self.values.push(rejected as f64);
-        }
     }
 
     /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`; `step` where it varies, the length
     /// of the macro step that ends here; `degree` and `exchanged_degree` where they follow the estimates, those of its polynomials;
-    /// `error_estimate` where the method has a corrector, the error of the step as a share of the motion so far; `rejected` where
-    /// the step varies, the attempts since the start of the run that were repeated with a shorter one.
+    /// `error_estimate` where the method has a corrector, the error of the step as a share of the motion so far.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
@@ -191,11 +177,6 @@ impl Row {
                 Quantity::ErrorEstimate,
                 "1",
                 "estimated error of the step as a share of the motion so far",
-            )),
-            REJECTED => Some((
-                Quantity::Rejections,
-                "1",
-                "attempts since the start of the run that were repeated with a shorter step",
             )),
             _ => None,
         }

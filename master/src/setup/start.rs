@@ -96,11 +96,7 @@ impl CoSimulation {
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
         let error = run.errors.of_last_step();
-        let of_step = OfStep {
-            degrees,
-            error,
-            rejected: 0,
-        };
+        let of_step = OfStep { degrees, error };
         let mut row = Row::new(&run.layout, named, shows_step, of_step);
         row.describe(described(&row, &run.layout, &models, &joints));
         let points: Vec<_> = scene

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod differences;
+mod exports;
 mod plots;
 
 use linchpin_tests::process::Workshop;

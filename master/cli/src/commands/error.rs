@@ -173,6 +173,15 @@ pub enum CommandError {
         /// Its end (s).
         to: f64,
     },
+    /// A run without a marker that has a place.
+    #[error(
+        "{} has no positions of markers; run the scene with --animate, which makes columns of them",
+        folder.display()
+    )]
+    NothingToExport {
+        /// The folder of results.
+        folder: PathBuf,
+    },
     /// A choice of columns and times without a point.
     #[error(
         "nothing to draw of {}: no row from t = {from} s to {to} s has a finite value of the chosen columns",
@@ -341,6 +350,7 @@ impl CommandError {
             | Self::NoColumn { .. }
             | Self::EmptyRange { .. }
             | Self::NothingToDraw { .. }
+            | Self::NothingToExport { .. }
             | Self::StudyAmongOthers { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,

@@ -10,6 +10,7 @@ pub mod describe;
 pub mod description;
 pub mod diff;
 pub mod error;
+pub mod export;
 pub mod graph;
 pub mod health;
 pub mod init;

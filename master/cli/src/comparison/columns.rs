@@ -58,11 +58,7 @@ impl Compared {
     fn is_of_coupling(&self) -> bool {
         matches!(
             self.quantity,
-            Quantity::Residual
-                | Quantity::Step
-                | Quantity::Degree
-                | Quantity::ErrorEstimate
-                | Quantity::Rejections
+            Quantity::Residual | Quantity::Step | Quantity::Degree | Quantity::ErrorEstimate
         )
     }
 }

@@ -3,7 +3,7 @@
 //! * [`table`]: a table of results in memory;
 //! * [`columns`]: the largest difference of every column;
 //! * [`settings`]: the settings that differ;
-//! * [`text`]: the comparison for a reader.
+//! * `text`: the comparison for a reader.
 
 pub mod columns;
 pub mod settings;

@@ -159,7 +159,7 @@ impl Layout {
 }
 
 /// Beginnings of labels in the order of the panels; outputs of other kinds come before what tells of the joints.
-const RANKS: [&str; 23] = [
+const RANKS: [&str; 22] = [
     "position",
     "angle",
     "turn",
@@ -181,7 +181,6 @@ const RANKS: [&str; 23] = [
     "macro step",
     "estimated error",
     "degree",
-    "repeated",
     "time",
 ];
 
@@ -200,7 +199,6 @@ fn label(quantity: Quantity, unit: &str) -> String {
         (Quantity::Step, _) => "macro step H",
         (Quantity::Degree, _) => "degree",
         (Quantity::ErrorEstimate, _) => return "estimated error / motion".into(),
-        (Quantity::Rejections, _) => "repeated attempts",
         // Of markers and other outputs alike.
         (_, "rad") => "angle",
         (_, "rad/s") => "angular velocity",

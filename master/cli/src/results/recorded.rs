@@ -36,6 +36,8 @@ struct About {
     panels: Vec<Panel>,
     #[serde(default)]
     multiplier_delay: f64,
+    #[serde(default)]
+    rejections: Vec<f64>,
     columns: Vec<ReportedColumn>,
     /// Of the folder of a scene with cases.
     #[serde(default)]
@@ -201,6 +203,7 @@ impl Recorded {
         let mut recording = Recording::new(&Plan {
             span: (self.about.t_start, self.about.t_end),
             multiplier_delay: self.about.multiplier_delay,
+            rejections: &self.about.rejections,
             panels: &self.about.panels,
             columns: &self.about.columns,
             chosen,

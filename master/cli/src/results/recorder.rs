@@ -170,6 +170,7 @@ impl Recorder for RunRecorder {
         self.recording = Some(Recording::new(&Plan {
             span: (self.scene.t_start, self.scene.t_end),
             multiplier_delay: multiplier_delay(&self.scene),
+            rejections: &[],
             panels: &self.scene.output.panels,
             columns: &columns,
             chosen: None,
@@ -222,7 +223,10 @@ impl Recorder for RunRecorder {
         }
     }
 
-    fn progress(&mut self, t: f64) {
+    fn progress(&mut self, t: f64, rejected: u64) {
+        if let Some(recording) = &mut self.recording {
+            recording.rejections.count(t, rejected);
+        }
         let Scene { t_start, t_end, .. } = self.scene;
         if self.bar.is_hidden() || (t < t_end && self.bar.elapsed() < REFRESH) {
             return;

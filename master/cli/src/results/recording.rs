@@ -12,6 +12,8 @@ pub struct Plan<'a> {
     pub span: (f64, f64),
     /// By how much multipliers are shown earlier (s).
     pub multiplier_delay: f64,
+    /// Ends of macro steps that were repeated (s), as far as they are known already.
+    pub rejections: &'a [f64],
     /// The panels that the scene asks for.
     pub panels: &'a [Panel],
     /// The columns of the table.
@@ -80,7 +82,7 @@ impl Recording {
             shown: layout.shown,
             traces: layout.traces,
             impacts: Impacts::of(plan.columns, plan.span),
-            rejections: Rejections::of(plan.columns, plan.span),
+            rejections: Rejections::at(plan.rejections, plan.span),
             t_start: plan.span.0,
             multiplier_delay: plan.multiplier_delay,
         }
@@ -92,6 +94,5 @@ impl Recording {
             trace.record(values);
         }
         self.impacts.record(values);
-        self.rejections.record(values);
     }
 }

@@ -34,6 +34,8 @@ struct Results<'a> {
     wall_time: f64,
     /// Absent if the run has not started.
     statistics: Option<&'a Statistics>,
+    /// Ends of macro steps that were repeated with a shorter one before (s), of very many some.
+    rejections: Vec<f64>,
     /// What speaks against the results.
     warnings: Vec<String>,
     errors: Vec<ColumnErrorJson<'a>>,
@@ -51,7 +53,9 @@ impl RunReport {
     /// The numbers for `run.json`.
     pub fn results(&self) -> impl Serialize {
         let errors = self.errors.iter().flat_map(ErrorMeter::errors);
+        let recording = self.recording.iter();
         Results {
+            rejections: recording.flat_map(|own| own.rejections.times()).collect(),
             wall_time: self.wall_time,
             statistics: self.statistics.as_ref(),
             warnings: self.warnings().iter().map(ToString::to_string).collect(),

@@ -1,7 +1,5 @@
 //! When impacts happened and macro steps were repeated, as far as the results tell.
 
-use linchpin_master::results::Quantity;
-
 use super::ReportedColumn;
 
 /// Outputs of a subsystem with this name count its impacts in the last macro step.
@@ -85,29 +83,26 @@ impl Impacts {
 /// Ends of macro steps that were repeated with a shorter one before, in bounded memory.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rejections {
-    /// The column that counts the repeated attempts from the start.
-    column: Option<usize>,
-    counted: f64,
+    counted: u64,
     times: Times,
 }
 
 impl Rejections {
-    /// None yet of a run over this time with these columns.
-    pub fn of(columns: &[ReportedColumn], span: (f64, f64)) -> Self {
-        let counts = |column: &ReportedColumn| column.quantity() == Quantity::Rejections;
-        Self {
-            column: columns.iter().position(counts),
-            counted: 0.0,
+    /// Those at these times (s) of a run over a span of time.
+    pub fn at(times: &[f64], span: (f64, f64)) -> Self {
+        let mut own = Self {
+            counted: 0,
             times: Times::within(span),
-        }
+        };
+        times.iter().for_each(|t| own.times.add(*t));
+        own
     }
 
-    /// Takes the values of a row.
-    pub fn record(&mut self, values: &[f64]) {
-        let Some(column) = self.column else { return };
-        if values[column] > self.counted {
-            self.counted = values[column];
-            self.times.add(values[0]);
+    /// Takes the end of a macro step and how many attempts were repeated since the start of the run.
+    pub fn count(&mut self, t: f64, rejected: u64) {
+        if rejected > self.counted {
+            self.counted = rejected;
+            self.times.add(t);
         }
     }
 
@@ -119,6 +114,8 @@ impl Rejections {
 
 #[cfg(test)]
 mod tests {
+    use linchpin_master::results::Quantity;
+
     use super::*;
     use crate::results::about::tests::column;
 
@@ -154,17 +151,14 @@ mod tests {
         assert!(times.windows(2).all(|pair| pair[0] < pair[1]));
     }
 
-    /// The column counts from the start, so that rows that are left out lose no rejection.
     #[test]
     fn steps_are_marked_where_more_attempts_were_repeated() {
-        let columns = [
-            column("t", "s", Quantity::Time),
-            column("rejected", "1", Quantity::Rejections),
-        ];
-        let mut rejections = Rejections::of(&columns, (0.0, 2.0));
-        for row in [[0.0, 0.0], [0.5, 0.0], [0.75, 2.0], [1.0, 2.0], [2.0, 3.0]] {
-            rejections.record(&row);
+        let mut rejections = Rejections::at(&[], (0.0, 2.0));
+        for (t, rejected) in [(0.5, 0), (0.75, 2), (1.0, 2), (2.0, 3)] {
+            rejections.count(t, rejected);
         }
-        assert_eq!(rejections.times().collect::<Vec<_>>(), [0.75, 2.0]);
+        let times: Vec<f64> = rejections.times().collect();
+        assert_eq!(times, [0.75, 2.0]);
+        assert!(Rejections::at(&times, (0.0, 2.0)).times().eq(times));
     }
 }
