@@ -78,7 +78,7 @@ mod tests {
     fn an_error_names_both_versions() {
         let error = negotiate(Some(&ProtocolVersion { major: 2, minor: 3 })).unwrap_err();
         let text = error.to_string();
-        assert!(text.contains("1.3") && text.contains("2.3"), "{text}");
+        assert!(text.contains("1.4") && text.contains("2.3"), "{text}");
         assert!(
             negotiate(None)
                 .unwrap_err()
