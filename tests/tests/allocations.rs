@@ -251,6 +251,7 @@ fn joint_loads_allocate_nothing() {
         let mut request = v1::ExchangeRequest {
             instance: 1,
             advance: Some(v1::Advance {
+                impacts: None,
                 t: 0.0,
                 step: 1e-2,
                 signals: signals.clone(),
@@ -305,6 +306,7 @@ fn directional_derivatives_allocate_nothing() {
     let mut request = v1::ExchangeRequest {
         instance: 1,
         advance: Some(v1::Advance {
+            impacts: None,
             step: 1e-2,
             signals,
             instants: vec![2e-3, 7e-3],

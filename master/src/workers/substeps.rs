@@ -91,9 +91,17 @@ mod tests {
 
     #[test]
     fn a_substep_has_the_inputs_and_the_samples_of_its_part() {
+        let impact = |at| v1::Impact {
+            at,
+            contacts: vec![3],
+            ..v1::Impact::default()
+        };
         let whole = v1::Advance {
             instants: vec![0.1],
             integrals: 2,
+            impacts: Some(v1::Impacts {
+                impacts: [0.0, 0.2, 0.31, 0.4, 0.5].map(impact).to_vec(),
+            }),
             t: 3.0,
             step: 0.8,
             signals: vec![v1::Signal {
@@ -109,6 +117,12 @@ mod tests {
             (3.2, 0.2, 7)
         );
         assert!(substep.samples.len() == 1 && (substep.samples[0] - 0.15).abs() < 1e-15);
+        let at = |own: &v1::Advance| -> Vec<f64> {
+            let impacts = own.impacts.iter().flat_map(|own| &own.impacts);
+            impacts.map(|impact| impact.at).collect()
+        };
+        assert!(matches!(at(&substep)[..], [a, b] if (a - 0.11).abs() < 1e-15 && b == 0.2));
+        assert_eq!(at(&substep_of(&whole, 0.0, 0.2)), [0.0, 0.2]);
         let [own, all] =
             [&substep, &whole].map(|one| Polynomial::from_signal(&one.signals[0]).unwrap());
         for tau in [0.0, 0.07, 0.2] {
