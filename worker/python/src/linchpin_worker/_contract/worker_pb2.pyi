@@ -339,6 +339,50 @@ class RestoreReply(_message.Message):
     sequence: int
     def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ...) -> None: ...
 
+class ExportedState(_message.Message):
+    __slots__ = ("model", "writer", "state", "checksum")
+    MODEL_FIELD_NUMBER: _ClassVar[int]
+    WRITER_FIELD_NUMBER: _ClassVar[int]
+    STATE_FIELD_NUMBER: _ClassVar[int]
+    CHECKSUM_FIELD_NUMBER: _ClassVar[int]
+    model: str
+    writer: str
+    state: bytes
+    checksum: int
+    def __init__(self, model: _Optional[str] = ..., writer: _Optional[str] = ..., state: _Optional[bytes] = ..., checksum: _Optional[int] = ...) -> None: ...
+
+class ExportStateRequest(_message.Message):
+    __slots__ = ("instance",)
+    INSTANCE_FIELD_NUMBER: _ClassVar[int]
+    instance: int
+    def __init__(self, instance: _Optional[int] = ...) -> None: ...
+
+class ExportStateReply(_message.Message):
+    __slots__ = ("state", "instance")
+    STATE_FIELD_NUMBER: _ClassVar[int]
+    INSTANCE_FIELD_NUMBER: _ClassVar[int]
+    state: ExportedState
+    instance: int
+    def __init__(self, state: _Optional[_Union[ExportedState, _Mapping]] = ..., instance: _Optional[int] = ...) -> None: ...
+
+class ImportStateRequest(_message.Message):
+    __slots__ = ("instance", "sequence", "state")
+    INSTANCE_FIELD_NUMBER: _ClassVar[int]
+    SEQUENCE_FIELD_NUMBER: _ClassVar[int]
+    STATE_FIELD_NUMBER: _ClassVar[int]
+    instance: int
+    sequence: int
+    state: ExportedState
+    def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ..., state: _Optional[_Union[ExportedState, _Mapping]] = ...) -> None: ...
+
+class ImportStateReply(_message.Message):
+    __slots__ = ("instance", "sequence")
+    INSTANCE_FIELD_NUMBER: _ClassVar[int]
+    SEQUENCE_FIELD_NUMBER: _ClassVar[int]
+    instance: int
+    sequence: int
+    def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ...) -> None: ...
+
 class Signal(_message.Message):
     __slots__ = ("input", "nodes", "values")
     INPUT_FIELD_NUMBER: _ClassVar[int]
