@@ -9,6 +9,7 @@
 //! * `correcting`: prediction, look-ahead and correction, and what they teach;
 //! * `foreseeing`: how far the step goes, which its error is compared with;
 //! * `jacobian`: conditions and the workers' responses, linearised;
+//! * `impacts`: impulses through the joints;
 //! * `error`: the error of a step, and with it the degrees of the next one;
 //! * `unresolved`: signals that the step does not resolve;
 //! * `rejection`: what may stand against a step;
@@ -18,6 +19,7 @@ mod advance;
 mod correcting;
 mod error;
 mod foreseeing;
+mod impacts;
 mod jacobian;
 mod rejection;
 mod run;
@@ -25,6 +27,7 @@ mod unresolved;
 
 pub(crate) use advance::reach;
 pub(crate) use correcting::{Corrector, State as CorrectorState};
+pub(crate) use impacts::{Colliding, Impacts};
 pub(crate) use jacobian::{Jacobian, PointJacobian};
 pub(crate) use run::Run;
 
@@ -41,12 +44,13 @@ use rejection::Rejection;
 pub(crate) fn macro_step(run: &mut Run, first: MacroStep) -> Result<Outcome, RunError> {
     let mut outcome = Outcome::of_step(first);
     let accepted = loop {
-        match attempt(run, &mut outcome) {
+        match attempt(run, &mut outcome, first.length) {
             Ok(accepted) => break accepted,
             Err(rejection) => repeat(run, rejection, &mut outcome)?,
         }
     };
     let step = outcome.step;
+    outcome.has_impact = accepted.has_impact;
     let wish = accept(run, step, accepted);
     let following = run.plan.following(wish);
     advance(run, step, following)?;
@@ -65,11 +69,16 @@ struct Accepted {
     error: Option<Estimate>,
     /// Whether an exchanged variable has jumped.
     has_jumped: bool,
+    /// Whether there was an impact in it.
+    has_impact: bool,
 }
 
 /// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
 /// what the error belongs to, and cost exchanges.
-fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> {
+///
+/// A step that was `longest` (s) at the first attempt is no more shortened for the error of an impact in it where it has become so much shorter
+/// that it is the impact's own.
+fn attempt(run: &mut Run, outcome: &mut Outcome, longest: f64) -> Result<Accepted, Rejection> {
     let step = outcome.step;
     let mut iteration = run.iteration;
     let mut estimates = None;
@@ -81,18 +90,24 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
             estimates,
             error: None,
             has_jumped: false,
+            has_impact: false,
         });
     };
     if let Some(error) = refusal {
         return Err(error.into());
     }
+    let has_impact = own.meets_impacts();
+    if has_impact {
+        own.couple_impacts(step, &mut iteration, policies.degrees.as_deref_mut())?;
+    }
     outcome.solving += own.correct(step)?;
-    let mut has_jumped = false;
+    let mut has_jumped = has_impact;
     let step_size = policies.step_size.as_deref();
     if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
         let next = own.choose_degrees(policies.degrees.as_deref_mut(), step, step_size, &found);
-        if step_size.is_too_long(step, &found) {
+        let may_be_shorter = !has_impact || step_size.may_follow_impact(step, longest);
+        if may_be_shorter && step_size.is_too_long(step, &found) {
             return Err(Rejection::by_error(
                 own.layout,
                 step,
@@ -100,14 +115,16 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
                 [found, next],
             ));
         }
-        has_jumped = step_size.is_jump(step, &found);
+        has_jumped |= step_size.is_jump(step, &found);
         estimates = Some([found, next]);
     }
     own.foresee(policies.errors);
     let error = own.likely_error(step, policies.errors);
     let tolerance = policies.tolerance();
     own.begin(&mut iteration, step, tolerance);
-    while let Some(with_columns) = iteration.next_pass() {
+    // A step with an impact has taken two more exchanges, and has new columns.
+    let may_pass = !has_impact || iteration.has_rule();
+    while let Some(with_columns) = iteration.next_pass().filter(|_| may_pass) {
         own.look_again(step, with_columns)?;
         outcome.solving += own.correct(step)?;
         iteration.note_pass(own.size_of_change(step, tolerance), with_columns);
@@ -119,6 +136,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome) -> Result<Accepted, Rejection> 
         estimates,
         error: Some(error).filter(|_| !has_jumped),
         has_jumped,
+        has_impact,
     })
 }
 
@@ -163,6 +181,9 @@ pub(crate) fn look_ahead(
 fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
     run.iteration = accepted.iteration;
     run.iteration.accept(step);
+    if accepted.has_impact {
+        run.iteration.pass_impact();
+    }
     let mut columns = 0.0;
     if let Some((mut own, policies)) = run.correcting() {
         let workers = &mut *own.workers;
@@ -172,6 +193,9 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         if accepted.has_jumped {
             own.method.restart_exchanged();
         }
+        if accepted.has_impact {
+            own.method.restart();
+        }
         own.accept(policies.degrees);
         columns = own.cost_of_columns();
         if let Some(error) = &accepted.error {
@@ -179,6 +203,7 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         }
     }
     match (&mut run.step_size, accepted.estimates) {
+        (Some(step_size), _) if accepted.has_impact => step_size.pass_break(step),
         (Some(step_size), _) if accepted.has_jumped => step_size.pass_jump(step),
         (Some(step_size), Some([found, next])) => {
             step_size.accept(step, &next, next == found, columns)

@@ -70,9 +70,11 @@ impl CoSimulation {
 
     /// What is told of the last macro step.
     fn of_step(&mut self) -> OfStep {
+        let steps = self.run.step_size.as_ref().and_then(StepSize::statistics);
         OfStep {
             degrees: self.degrees(),
             error: self.run.errors.of_last_step(),
+            rejected: steps.map_or(0, |steps| steps.rejected),
         }
     }
 

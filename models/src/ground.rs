@@ -93,6 +93,10 @@ impl Subsystem for Standing {
         Ok(())
     }
 
+    fn impulse(&mut self, _t: f64, _inputs: &[f64], _impulses: &[f64]) -> Result<(), StepFailure> {
+        Ok(())
+    }
+
     fn snapshot(&self, _into: &mut Snapshot) {}
 
     fn restore(&mut self, _from: &Snapshot) -> Result<(), StepFailure> {

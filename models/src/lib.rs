@@ -45,6 +45,7 @@ pub fn models() -> Vec<Box<dyn Model>> {
         Box::new(dc_motor::DcMotor),
         Box::new(pi_controller::PiController),
         Box::new(nonsmooth::SLIDER_CRANK),
+        Box::new(nonsmooth::ROD_SLIDER),
         Box::new(nonsmooth::MASS_CHAIN),
         Box::new(nonsmooth::BOUNCING_BALL),
         Box::new(nonsmooth::BLOCK),

@@ -6,7 +6,7 @@
 //! * [`mixed`]: the algorithm, one step from top to bottom (Fig. 4);
 //! * [`schemes`]: what advances a step without impacts, a file each; [`stages`]: their implicit equations;
 //! * [`activity`], [`impact`], [`start`]: which contacts take part, the impulsive correction, accelerations at an
-//!   instant;
+//!   instant; [`partners`]: what other subsystems do in an impact;
 //! * [`contact`]: the contact problem and its solvers; [`contact_log`]: what contacts did;
 //! * [`system`]: what a scheme knows of a mechanical system; [`mechanics`]: a system in rows, with settings and
 //!   counters;
@@ -21,6 +21,7 @@ pub mod impact;
 pub mod matrix;
 pub mod mechanics;
 pub mod mixed;
+pub mod partners;
 pub mod schemes;
 pub mod spectrum;
 pub mod stages;
@@ -34,5 +35,6 @@ pub use subsystem::block::BLOCK;
 pub use subsystem::bouncing_ball::BOUNCING_BALL;
 pub use subsystem::masses::MASS_CHAIN;
 pub use subsystem::model::NonsmoothModel;
+pub use subsystem::rod_slider::ROD_SLIDER;
 pub use subsystem::slider_crank::SLIDER_CRANK;
 pub use subsystem::woodpecker::WOODPECKER;

@@ -1,7 +1,7 @@
 //! What the parts of an exchange must keep to, whoever carries them out.
 
 use crate::readable::number;
-use crate::v1::{Advance, Failure, Predict};
+use crate::v1::{Advance, Failure, Impacts, Interface, Predict};
 use crate::weights::MAX_WEIGHTS;
 
 /// The samples of an advance are ascending instants inside its step.
@@ -56,6 +56,73 @@ fn check_inside([field, what]: [&str; 2], offsets: &[f64], step: f64) -> Result<
             ));
         }
         earliest = offset;
+    }
+    Ok(())
+}
+
+/// Impacts are ascending instants of a step, its ends included, with an impulse for each of the `signals` or for none.
+///
+/// # Errors
+/// [`Failure`] of severity misuse that names the first impact which is not so.
+pub fn check_impacts(impacts: &Impacts, step: f64, signals: usize) -> Result<(), Failure> {
+    let mut earliest = 0.0;
+    for (place, impact) in impacts.impacts.iter().enumerate() {
+        if !(impact.at >= earliest && impact.at <= step) {
+            return Err(Failure::misuse(
+                "impacts",
+                format!(
+                    "impact {place} is {} s after the start of the step; it must be from {} s on and to the end of the step at {} s",
+                    number(impact.at),
+                    number(earliest),
+                    number(step)
+                ),
+            ));
+        }
+        earliest = impact.at;
+        let loads = impact.loads.len();
+        if loads != 0 && loads != signals {
+            return Err(Failure::misuse(
+                "impacts",
+                format!(
+                    "impact {place} has {loads} loads; it must have one for each of the {signals} signals, or none"
+                ),
+            ));
+        }
+        if let Some(load) = impact.loads.iter().find(|load| !load.is_finite()) {
+            let message = format!("impact {place} has the impulse {load}; it must be finite");
+            return Err(Failure::misuse("impacts", message));
+        }
+    }
+    Ok(())
+}
+
+/// Whether an impact `at` (s) after the start of a step happens in the part of it that is `length` (s) long. Where a part ends at an impact but
+/// for rounding, the impact belongs to it.
+pub fn is_until(at: f64, length: f64) -> bool {
+    const ROUNDING: f64 = 1e-9;
+    at <= length * (1.0 + ROUNDING)
+}
+
+/// An interface has as many numbers as its rows and the `signals` ask for, all finite.
+///
+/// # Errors
+/// [`Failure`] of severity misuse that names both numbers.
+pub fn check_interface(interface: &Interface, signals: usize) -> Result<(), Failure> {
+    let rows = interface.rows as usize;
+    let lists = [
+        ("directions", &interface.directions, rows * signals),
+        ("mobility", &interface.mobility, rows * rows),
+    ];
+    for (name, own, right) in lists {
+        if own.len() != right || !own.iter().all(|number| number.is_finite()) {
+            return Err(Failure::misuse(
+                "interface",
+                format!(
+                    "interface.{name} has {} numbers; with {rows} rows and {signals} signals it must have {right}, all finite",
+                    own.len()
+                ),
+            ));
+        }
     }
     Ok(())
 }

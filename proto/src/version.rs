@@ -8,8 +8,8 @@ pub const PROTOCOL: ProtocolVersion = ProtocolVersion { major: 1, minor: 4 };
 /// The first minor number whose exchange stream goes back, evaluates beside a prediction and takes samples. An older one would
 /// pass over these parts of a request; a master then uses unary calls, which are the same for all minor numbers.
 ///
-/// What a worker may leave out stands in its capabilities and not here: directional derivatives, joint loads, instants,
-/// integrals, exported states.
+/// What a worker may leave out stands in its capabilities and not here: directional derivatives, joint loads, instants, integrals,
+/// exported states, impulses, impacts.
 const WHOLE_EXCHANGE: u32 = 1;
 
 /// The first minor number whose masters know that an instance ends some time after what held it.

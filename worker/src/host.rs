@@ -291,6 +291,8 @@ fn with_capabilities(mut model: v1::Model) -> v1::Model {
         directional_derivatives: own.directional_derivatives,
         interior_outputs: true,
         output_integrals: own.output_integrals,
+        impulses: own.impulses,
+        impacts: own.impacts,
     });
     model
 }

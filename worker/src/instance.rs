@@ -196,6 +196,11 @@ impl Instance {
             instants: &request.instants,
             integrals: request.integrals,
         };
+        self.motion.treat_impacts(
+            request.step,
+            request.impacts.as_ref(),
+            request.interface.as_ref(),
+        )?;
         self.motion.advance(
             (interval, inside),
             &request.signals,
@@ -207,6 +212,7 @@ impl Instance {
         Ok(v1::StepReply {
             outputs: Some(outputs),
             work: Some(meter.stop(&self.motion)),
+            impacts: self.motion.found_impacts(&request.instants),
             ..v1::StepReply::default()
         })
     }
@@ -237,16 +243,21 @@ impl Instance {
         let (mut outputs, mut derivatives) = (Vec::new(), Vec::new());
         self.motion.set_signals(&request.signals)?;
         self.motion.integrate_outputs(request.integrals)?;
-        match &request.instants[..] {
-            [] => self.motion.look_ahead_perturbed(
+        self.motion.treat_impacts(
+            request.step,
+            request.impacts.as_ref(),
+            request.interface.as_ref(),
+        )?;
+        match self.motion.is_cut(&request.instants) {
+            false => self.motion.look_ahead_perturbed(
                 Base::Committed,
                 Horizon::Step(interval),
                 &request.perturbed,
                 &mut outputs,
             )?,
-            instants => self.motion.look_ahead_cut(
+            true => self.motion.look_ahead_cut(
                 Base::Committed,
-                (interval, instants),
+                (interval, &request.instants),
                 &request.perturbed,
                 (None, &mut outputs),
             )?,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use linchpin_proto::v1;
 
-use crate::{Inputs, Setup, Snapshot, setup::SetupError};
+use crate::{Impact, Impacts, Inputs, Setup, Snapshot, setup::SetupError};
 
 /// One macro step of a subsystem: from `start` (s) over `length` (s).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -120,6 +120,32 @@ pub trait Subsystem: Send {
     /// [`Subsystem::derivative`] they are the derivatives of these integrals.
     fn integrals(&self, _values: &mut [f64]) -> Result<(), StepFailure> {
         Err(StepFailure::NotOffered { what: INTEGRALS })
+    }
+
+    /// Lets the velocities of the present state jump as under impulses of loads: by what `impulses`, added to the input values `inputs` at
+    /// time `t`, add to the accelerations. There is one for each input, 0 for those that are no loads. Positions stay, joints and
+    /// constraints of the subsystem keep their velocities, and contacts that could open are none of its business.
+    ///
+    /// Where it is given, the model's capabilities say `impulses`; the default refuses.
+    fn impulse(&mut self, _t: f64, _inputs: &[f64], _impulses: &[f64]) -> Result<(), StepFailure> {
+        Err(StepFailure::NotOffered {
+            what: "impulses of loads",
+        })
+    }
+
+    /// Lets the steps that follow treat impacts in this way; before the first call it is [`Impacts::Alone`]. It belongs to no state.
+    /// [`Subsystem::perturbed_step`] has the impacts of the step that it repeats, under the same impulses of loads.
+    ///
+    /// Where it is given, the model's capabilities say `impacts`; the default refuses.
+    fn treat_impacts(&mut self, _impacts: &Impacts) -> Result<(), StepFailure> {
+        Err(StepFailure::NotOffered {
+            what: "impacts that partners take part in",
+        })
+    }
+
+    /// The impacts of the last [`Subsystem::step`], in the order of their instants.
+    fn impacts(&self) -> &[Impact] {
+        &[]
     }
 
     /// Internal solver steps since the start, for the statistics.

@@ -1,18 +1,21 @@
 //! The command line: its arguments and what they start.
 
-use clap::{Parser, Subcommand};
+use clap::{ArgAction, Parser, Subcommand};
+use tracing::level_filters::LevelFilter;
 
 use crate::commands::{
-    CommandError, check, conformance, converge, describe, health, instances, report, run, spectrum,
-    stability, worker,
+    CommandError, check, completions, conformance, converge, describe, diff, graph, health, init,
+    instances, man, models, plot, report, run, spectrum, stability, worker,
 };
 use crate::log::Filter;
+use crate::version::LONG;
 
 /// Couple black-box solvers by rigid joints
 #[derive(Debug, Parser)]
 #[command(
     name = "linchpin",
     version,
+    long_version = LONG.as_str(),
     propagate_version = true,
     after_help = "Examples:
   linchpin run scenes/oscillator.toml
@@ -37,12 +40,21 @@ pub struct Arguments {
         value_name = "FILTER"
     )]
     log: Filter,
+
+    /// Log more, whatever --log says: -v the story of a run, -vv every decision with its numbers, -vvv everything
+    #[arg(short, long, global = true, action = ArgAction::Count)]
+    verbose: u8,
 }
 
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Arguments),
+    Plot(plot::Arguments),
+    Diff(diff::Arguments),
     Check(check::Arguments),
+    Models(models::Arguments),
+    Init(init::Arguments),
+    Graph(graph::Arguments),
     Worker(worker::Arguments),
     Describe(describe::Arguments),
     Health(health::Arguments),
@@ -52,19 +64,31 @@ enum Command {
     Stability(stability::Arguments),
     Report(report::Arguments),
     Spectrum(spectrum::Arguments),
+    Completions(completions::Arguments),
+    Man(man::Arguments),
 }
 
 impl Arguments {
     /// What is logged.
-    pub fn log(&self) -> &Filter {
-        &self.log
+    pub fn log(&self) -> Filter {
+        match self.verbose {
+            0 => self.log.clone(),
+            1 => Filter::of_level(LevelFilter::INFO),
+            2 => Filter::of_level(LevelFilter::DEBUG),
+            _ => Filter::of_level(LevelFilter::TRACE),
+        }
     }
 
     /// Does what the sub-command says.
     pub fn execute(&self) -> Result<(), CommandError> {
         match &self.command {
             Command::Run(arguments) => run::execute(arguments),
+            Command::Plot(arguments) => plot::execute(arguments),
+            Command::Diff(arguments) => diff::execute(arguments),
             Command::Check(arguments) => check::execute(arguments),
+            Command::Init(arguments) => init::execute(arguments),
+            Command::Models(arguments) => models::execute(arguments),
+            Command::Graph(arguments) => graph::execute(arguments),
             Command::Worker(arguments) => worker::execute(arguments),
             Command::Describe(arguments) => describe::execute(arguments),
             Command::Health(arguments) => health::execute(arguments),
@@ -73,6 +97,8 @@ impl Arguments {
             Command::Converge(arguments) => converge::execute(arguments),
             Command::Stability(arguments) => stability::execute(arguments),
             Command::Report(arguments) => report::execute(arguments),
+            Command::Completions(arguments) => completions::execute(arguments),
+            Command::Man(arguments) => man::execute(arguments),
             Command::Spectrum(arguments) => spectrum::execute(arguments),
         }
     }

@@ -1,13 +1,14 @@
 //! How the command line tool reaches the workers of a scene.
 
+use std::collections::BTreeMap;
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::time::Duration;
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
     ConnectOptions, Connection, Direct, Launcher, Renewable, StartError, Threaded, TimeLimits,
-    UnaryTurns, connect, new_runtime, start,
+    UnaryTurns, WorkerProcess, connect, new_runtime, reach_started,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::ground::GROUND;
@@ -32,6 +33,8 @@ pub struct Connector {
     interrupt: Interrupt,
     runtime: OnceLock<Arc<Runtime>>,
     launcher: OnceLock<Arc<Launcher>>,
+    /// Processes that were started and are not connected yet.
+    begun: Mutex<BTreeMap<String, WorkerProcess>>,
 }
 
 impl Connector {
@@ -42,6 +45,7 @@ impl Connector {
             interrupt: Interrupt::default(),
             runtime: OnceLock::new(),
             launcher: OnceLock::new(),
+            begun: Mutex::default(),
         }
     }
 
@@ -61,21 +65,15 @@ impl Connector {
         scene: &Scene,
         subsystem: &Subsystem,
     ) -> Result<Box<dyn Connection>, StartError> {
-        match &subsystem.served {
-            Served::BuiltIn if self.place != Place::Processes || is_ground(subsystem) => {
-                Ok(self.in_this_process(subsystem))
-            }
-            Served::BuiltIn => {
-                let command = [this_program()?, "worker".into(), "--exit-with-stdin".into()];
-                self.start(scene, subsystem, command.into())
-            }
-            Served::Command(command) => self.start(scene, subsystem, command.clone()),
-            Served::Address(address) => {
-                let (address, way) = (address.clone(), self.way(scene, subsystem)?);
-                let reach = move || Ok(connect(&address, &way)?);
-                Ok(Box::new(Renewable::new(reach)?))
-            }
+        if let Some(command) = self.command(subsystem)? {
+            return self.start(scene, subsystem, command);
         }
+        let Served::Address(address) = &subsystem.served else {
+            return Ok(self.in_this_process(subsystem));
+        };
+        let (address, way) = (address.clone(), self.way(scene, subsystem)?);
+        let reach = move || Ok(connect(&address, &way)?);
+        Ok(Box::new(Renewable::new(reach)?))
     }
 
     fn start(
@@ -86,8 +84,47 @@ impl Connector {
     ) -> Result<Box<dyn Connection>, StartError> {
         let launcher = Arc::clone(self.launcher()?);
         let (name, way) = (subsystem.name.clone(), self.way(scene, subsystem)?);
-        let begin = move || start(&launcher, &name, &command, &way);
+        let begun = Mutex::new(self.begun().remove(&name));
+        let begin = move || {
+            let begun = begun.lock().unwrap_or_else(PoisonError::into_inner).take();
+            let process = match begun {
+                Some(process) => process,
+                None => launcher.start(&name, &command)?,
+            };
+            reach_started(process, &way)
+        };
         Ok(Box::new(Renewable::new(begin)?))
+    }
+
+    /// Starts the processes of all workers of a scene, so that they come up at the same time. What cannot be started is told when it is
+    /// connected.
+    pub fn begin(&self, scene: &Scene) {
+        for subsystem in &scene.subsystems {
+            let begun = self.command(subsystem).and_then(|command| match command {
+                Some(command) => Ok(Some(self.launcher()?.start(&subsystem.name, &command)?)),
+                None => Ok(None),
+            });
+            if let Ok(Some(process)) = begun {
+                self.begun().insert(subsystem.name.clone(), process);
+            }
+        }
+    }
+
+    fn begun(&self) -> MutexGuard<'_, BTreeMap<String, WorkerProcess>> {
+        self.begun.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The command of a worker that a run starts; `None` for one that is there already.
+    fn command(&self, subsystem: &Subsystem) -> Result<Option<Vec<String>>, StartError> {
+        match &subsystem.served {
+            Served::BuiltIn if self.place != Place::Processes || is_ground(subsystem) => Ok(None),
+            Served::BuiltIn => {
+                let command = [this_program()?, "worker".into(), "--exit-with-stdin".into()];
+                Ok(Some(command.into()))
+            }
+            Served::Command(command) => Ok(Some(command.clone())),
+            Served::Address(_) => Ok(None),
+        }
     }
 
     fn in_this_process(&self, subsystem: &Subsystem) -> Box<dyn Connection> {

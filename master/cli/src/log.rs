@@ -74,6 +74,16 @@ impl FromStr for Filter {
     }
 }
 
+impl Filter {
+    /// All that Linchpin logs at a level.
+    pub fn of_level(level: LevelFilter) -> Self {
+        Self {
+            targets: Targets::new().with_target(ALL_OF_OURS, level),
+            most: level,
+        }
+    }
+}
+
 /// A level by its name; the crate's own parser also takes numbers and the empty text.
 fn level_of(name: &str) -> Result<LevelFilter, FilterError> {
     let is_name = LEVELS.split(", ").any(|level| level == name);

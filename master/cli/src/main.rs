@@ -9,7 +9,7 @@ use linchpin::{diagnostics, log};
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    log::begin(arguments.log());
+    log::begin(&arguments.log());
     match arguments.execute() {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {

@@ -104,6 +104,7 @@ fn start(
     resumed: Option<&Checkpoint>,
 ) -> Result<CoSimulation, RunError> {
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
+    connector.begin(scene);
     let mut begin = || -> Result<CoSimulation, RunError> {
         let mut simulation = CoSimulation::start(scene, &mut connect, options)?;
         if let Some(checkpoint) = resumed {

@@ -107,10 +107,21 @@ pub(super) async fn within<T>(
     limit: Duration,
     answer: impl Future<Output = T>,
 ) -> Result<T, CallError> {
+    until(Instant::now() + limit, limit, answer).await
+}
+
+/// Gives up waiting for `answer` at `end`, which is `limit` after the request.
+pub(super) async fn until<T>(
+    end: Instant,
+    limit: Duration,
+    answer: impl Future<Output = T>,
+) -> Result<T, CallError> {
     let late = |_| CallError::Deadline {
         seconds: limit.as_secs_f64(),
     };
-    tokio::time::timeout(limit, answer).await.map_err(late)
+    tokio::time::timeout_at(end.into(), answer)
+        .await
+        .map_err(late)
 }
 
 /// Gives up waiting for `answer` after an interrupt.

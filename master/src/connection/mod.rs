@@ -150,14 +150,14 @@ fn advice(error: &CallError) -> &'static str {
 /// How long one attempt to reach a starting worker lasts before its process is looked after.
 const ATTEMPT: Duration = Duration::from_millis(50);
 
-/// Starts `command` as the worker of subsystem `name` and connects to it.
-pub fn start(
-    launcher: &Launcher,
-    name: &str,
-    command: &[String],
+/// Connects to a worker that was started, as soon as it listens.
+///
+/// # Errors
+/// [`StartError::Ended`], [`StartError::Silent`], and those of the first call.
+pub fn reach_started(
+    process: WorkerProcess,
     options: &ConnectOptions,
 ) -> Result<Box<dyn Connection>, StartError> {
-    let process = launcher.start(name, command)?;
     let give_up = Instant::now() + options.limits.start;
     loop {
         let attempt = ConnectOptions {

@@ -15,7 +15,7 @@ use tokio_stream::wrappers::UnboundedReceiverStream;
 use tonic::{Response, Status, Streaming};
 
 use super::Grpc;
-use super::grpc::{unless, within};
+use super::grpc::{unless, until};
 use super::worker::Connection;
 
 /// One bidirectional stream for the whole run.
@@ -24,6 +24,8 @@ pub struct ExchangeStream {
     requests: Option<UnboundedSender<ExchangeRequest>>,
     /// The request whose answer is due.
     posted: Posted,
+    /// When it was sent: the time limit counts from there, so that many late workers are waited for at once.
+    posted_at: Instant,
     replies: Replies,
     polling: Duration,
 }
@@ -53,6 +55,7 @@ impl ExchangeStream {
             grpc,
             requests: Some(requests),
             posted: Posted::default(),
+            posted_at: Instant::now(),
             replies: Replies::Unopened(receiver),
             polling: Duration::ZERO,
         }
@@ -83,6 +86,7 @@ impl Connection for ExchangeStream {
             .as_ref()
             .ok_or_else(|| lost("the stream is closed"))?;
         self.posted = Posted(request.label());
+        self.posted_at = Instant::now();
         requests
             .send(request.clone())
             .map_err(|_| lost("the worker closed the exchange stream"))?;
@@ -128,7 +132,8 @@ impl ExchangeStream {
             return Ok(answer);
         }
         let limit = self.grpc.limits.answer;
-        unless(&self.grpc.interrupt, within(limit, answer)).await?
+        let end = self.posted_at + limit;
+        unless(&self.grpc.interrupt, until(end, limit, answer)).await?
     }
 }
 

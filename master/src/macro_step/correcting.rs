@@ -4,6 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::impacts::Impacts;
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
 use crate::accuracy::{Attempts, Change, Difference, PositionErrors, Tolerance};
@@ -117,6 +118,8 @@ pub struct Correcting<'a> {
     pub own: &'a mut Corrector,
     /// The conditions at the present macro point, for methods that have them.
     pub point: Option<&'a mut PointJacobian>,
+    /// Impacts within the step, where there may be any.
+    pub impacts: Option<&'a mut Impacts>,
     /// Whether a shorter step may follow a failure.
     pub varies: bool,
 }
@@ -211,14 +214,9 @@ impl Correcting<'_> {
     #[tracing::instrument(name = "correction", level = "trace", skip_all)]
     pub fn correct(&mut self, step: MacroStep) -> Result<Duration, RunError> {
         let started = Instant::now();
+        self.linearise();
         let own = &mut *self.own;
         own.has_nested = None;
-        let ahead = self.workers.looked(Ahead::Step);
-        own.end.linearise(self.layout, &ahead, self.method.point());
-        if let (Some(point), Some(held)) = (self.point.as_mut(), self.method.held()) {
-            let now = self.workers.looked(Ahead::Now);
-            point.linearise_once(self.layout, &now, held);
-        }
         let start = self.point.as_ref().map(|point| point.system());
         let system = &mut own.end.system;
         self.method
@@ -239,6 +237,25 @@ impl Correcting<'_> {
         largest_changes(system.unknowns(), &own.change, &mut own.sizes);
         check_finite(ends, self.layout, step)?;
         Ok(started.elapsed())
+    }
+
+    /// Linearises the conditions about the answers to the look-ahead.
+    pub(super) fn linearise(&mut self) {
+        let ahead = self.workers.looked(Ahead::Step);
+        let end = &mut self.own.end;
+        end.linearise(self.layout, &ahead, self.method.point());
+        if let (Some(point), Some(held)) = (self.point.as_mut(), self.method.held()) {
+            let now = self.workers.looked(Ahead::Now);
+            point.linearise_once(self.layout, &now, held);
+        }
+    }
+
+    /// Requests the look-ahead over `step` once more, with new columns, because of impacts within it.
+    pub(super) fn request_look_at_impacts(&mut self, step: MacroStep) {
+        self.own.continues = false;
+        self.workers.forgo_advance();
+        self.request_look(step, true, Cause::Impact);
+        self.workers.forgo_look(Ahead::Now);
     }
 
     /// The first correction is small enough: it counts among those that later ones are compared with.

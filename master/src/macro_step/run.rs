@@ -1,6 +1,7 @@
 //! What takes part in a macro step.
 
 use super::correcting::{Correcting, Corrector};
+use super::impacts::Impacts;
 use super::jacobian::PointJacobian;
 use crate::accuracy::{StepErrors, Tolerance};
 use crate::error::RunError;
@@ -21,6 +22,8 @@ pub struct Run {
     pub corrector: Option<Corrector>,
     /// Present for methods that solve conditions at the macro points.
     pub point: Option<PointJacobian>,
+    /// Present where subsystems find impacts that others take part in.
+    pub impacts: Option<Impacts>,
     pub iteration: IterationControl,
     /// Present if the macro step or the degrees follow the error.
     pub step_size: Option<StepSize>,
@@ -67,6 +70,7 @@ impl Run {
             method: self.method.corrected()?,
             own: self.corrector.as_mut()?,
             point: self.point.as_mut(),
+            impacts: self.impacts.as_mut(),
             varies,
         };
         let policies = ErrorPolicies {

@@ -93,6 +93,11 @@ pub trait Parameters {
         true
     }
 
+    /// Whether loads behind an impact owe nothing to those before it.
+    fn forgets_loads(&self) -> bool {
+        true
+    }
+
     /// The curves of multipliers and exchanged motion, if they are none of Lagrange through past values.
     fn own_curves(&self) -> Option<OwnCurves> {
         None

@@ -1,6 +1,7 @@
 //! Reading of what a user wrote: a tree of values with their places, all mistakes together.
 //!
 //! * `text`, `written`, `place`: a TOML file as it is written, with the place of every value;
+//! * `settings`: all of it by dotted keys;
 //! * `overrides`: values that the command line sets;
 //! * `key`: the keys of a table, declared once; `reader`: sections and fields, checked by them;
 //! * `lists`, `names`, `reference`: tables in lists, and names that refer to them;
@@ -18,6 +19,7 @@ pub(crate) mod overrides;
 pub(crate) mod place;
 pub(crate) mod reader;
 pub(crate) mod reference;
+mod settings;
 pub(crate) mod text;
 pub(crate) mod written;
 

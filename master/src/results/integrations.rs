@@ -12,6 +12,8 @@ pub struct Integrations {
     pub columns: u64,
     /// Tentative ones with corrected inputs, to correct them further.
     pub passes: u64,
+    /// With extrapolated inputs, once more for impacts.
+    pub impacts: u64,
     /// With corrected inputs, to stay.
     pub corrector: u64,
     /// For results at fixed times inside a macro step.
@@ -25,12 +27,14 @@ pub enum Cause {
     Predictor,
     /// Another pass of the corrector.
     Pass,
+    /// The same prediction with impacts that partners take part in.
+    Impact,
 }
 
 impl Integrations {
     /// All together.
     pub fn sum(&self) -> u64 {
-        let looks = self.predictor + self.columns + self.passes;
+        let looks = self.predictor + self.columns + self.passes + self.impacts;
         looks + self.corrector + self.samples
     }
 
@@ -47,6 +51,7 @@ impl Integrations {
         match looks_ahead_for {
             Cause::Predictor => self.predictor += 1,
             Cause::Pass => self.passes += 1,
+            Cause::Impact => self.impacts += 1,
         }
     }
 
@@ -55,6 +60,7 @@ impl Integrations {
         self.predictor += other.predictor;
         self.columns += other.columns;
         self.passes += other.passes;
+        self.impacts += other.impacts;
         self.corrector += other.corrector;
         self.samples += other.samples;
     }

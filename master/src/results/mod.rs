@@ -1,5 +1,6 @@
 //! What a run tells: rows, residuals, verdicts, statistics.
 
+mod column;
 mod contacts;
 mod free_velocity;
 mod growth;
@@ -12,11 +13,12 @@ mod redundancy;
 mod row;
 mod statistics;
 mod step_degrees;
-mod units;
 mod verdict;
 mod warning;
 
 pub use crate::accuracy::RunErrors;
+pub(crate) use column::described;
+pub use column::{Column, MarkerPart, Quantity};
 pub use contacts::RecordedContact;
 pub(crate) use contacts::outputs as contact_outputs;
 pub use free_velocity::FreeVelocity;
@@ -26,12 +28,11 @@ pub use mechanism::{Mechanism, RecordedJoint, RecordedMarker};
 pub use moments::MomentsOf;
 pub use outcome::{Outcome, Passes};
 pub use redundancy::Redundancy;
-pub use row::{Drawn, OfStep, Row};
+pub use row::{OfStep, Row};
 pub use statistics::{
     ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Recoveries, Rejections,
     Statistics, StepStatistics, SubsystemStatistics,
 };
 pub use step_degrees::StepDegrees;
-pub(crate) use units::units;
 pub use verdict::{Defect, Verdict};
 pub use warning::Warning;

@@ -16,6 +16,8 @@ pub struct Outcome {
     pub solving: Duration,
     /// How the corrections went.
     pub passes: Passes,
+    /// Whether there was an impact in it that partners took part in.
+    pub has_impact: bool,
 }
 
 impl Outcome {
@@ -26,6 +28,7 @@ impl Outcome {
             verdict: Verdict::Uncorrected,
             solving: Duration::ZERO,
             passes: Passes::default(),
+            has_impact: false,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::joint::Level;
 use crate::layout::Layout;
-use crate::results::StepDegrees;
+use crate::results::{Column, Quantity, StepDegrees};
 use crate::system::motion_of;
 use crate::time::{MacroStep, at_start};
 
@@ -16,6 +16,9 @@ const EXCHANGED_DEGREE: &str = "exchanged_degree";
 /// The column of the errors that steps are estimated to make, as shares of the motion so far.
 const ERROR: &str = "error_estimate";
 
+/// The column of the attempts that were repeated with a shorter step, counted from the start of the run.
+const REJECTED: &str = "rejected";
+
 /// What a row tells of its macro step.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct OfStep {
@@ -23,13 +26,15 @@ pub struct OfStep {
     pub degrees: StepDegrees,
     /// Its estimated error as a share of the motion so far; not known where the method has no corrector.
     pub error: Option<f64>,
+    /// Attempts since the start of the run that were repeated with a shorter step; a column where steps vary.
+    pub rejected: u64,
 }
 
 /// Time, outputs, multipliers and residuals at one macro point, in the order of the result columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     columns: Vec<String>,
-    units: Vec<String>,
+    descriptions: Vec<Column>,
     values: Vec<f64>,
     first_outputs: Vec<usize>,
     positions: Vec<usize>,
@@ -43,19 +48,6 @@ pub struct Row {
     step: MacroStep,
 }
 
-/// A column in the picture of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Drawn {
-    /// Position of a marker.
-    Motion,
-    /// Residual on position level.
-    Residual,
-    /// Multiplier.
-    Multiplier,
-    /// Any output of a scene without joints.
-    Output,
-}
-
 impl Row {
     /// For the outputs of these `subsystems`, each with its name. `shows_step`: the length of the macro step is a column; so
     /// are the degrees and the error that there are.
@@ -63,7 +55,7 @@ impl Row {
         layout: &Layout,
         subsystems: impl Iterator<Item = (&'a str, &'a [String])>,
         shows_step: bool,
-        OfStep { degrees, error }: OfStep,
+        OfStep { degrees, error, .. }: OfStep,
     ) -> Self {
         let mut columns = vec!["t".to_owned()];
         let mut first_outputs = Vec::new();
@@ -96,13 +88,14 @@ impl Row {
             (degrees.multipliers.is_some(), DEGREE),
             (degrees.exchanged.is_some(), EXCHANGED_DEGREE),
             (error.is_some(), ERROR),
+            (shows_step, REJECTED),
         ];
         let of_step = of_step.into_iter().filter(|(is_shown, _)| *is_shown);
         columns.extend(of_step.map(|(_, name)| name.to_owned()));
         Self {
             values: vec![0.0; columns.len()],
             columns,
-            units: Vec::new(),
+            descriptions: Vec::new(),
             first_outputs,
             positions,
             first_multiplier,
@@ -119,7 +112,11 @@ impl Row {
     pub(crate) fn read<'a>(
         &mut self,
         step: MacroStep,
-        OfStep { degrees, error }: OfStep,
+        OfStep {
+            degrees,
+            error,
+            rejected,
+        }: OfStep,
         layout: &Layout,
         outputs: impl Fn(usize) -> &'a [f64],
         multipliers: &[f64],
@@ -145,23 +142,63 @@ impl Row {
         let degrees = degrees.into_iter().flatten();
         self.values.extend(degrees.map(|degree| degree as f64));
         self.values.extend(error);
+        if self.shows_step {
+            self.values.push(rejected as f64);
+        }
     }
 
     /// Names of the columns: `t`, then `SUBSYSTEM.OUTPUT`, `JOINT.lambda`, `JOINT.residual.LEVEL`; `step` where it varies, the length
     /// of the macro step that ends here; `degree` and `exchanged_degree` where they follow the estimates, those of its polynomials;
-    /// `error_estimate` where the method has a corrector, the error of the step as a share of the motion so far.
+    /// `error_estimate` where the method has a corrector, the error of the step as a share of the motion so far; `rejected` where
+    /// the step varies, the attempts since the start of the run that were repeated with a shorter one.
     pub fn columns(&self) -> &[String] {
         &self.columns
     }
 
-    /// Units of the columns, as the workers give them for their outputs; 1 for numbers without one, empty if a worker does not tell.
-    pub fn units(&self) -> &[String] {
-        &self.units
+    /// What every column shows, in their order.
+    pub fn descriptions(&self) -> &[Column] {
+        &self.descriptions
     }
 
-    /// Takes the units of the columns.
-    pub(crate) fn set_units(&mut self, units: Vec<String>) {
-        self.units = units;
+    /// Takes what the columns show.
+    pub(crate) fn describe(&mut self, descriptions: Vec<Column>) {
+        self.descriptions = descriptions;
+    }
+
+    /// What the column at a place behind the residuals tells of the macro step, in words.
+    pub(crate) fn of_step(&self, place: usize) -> Option<(Quantity, &'static str, &'static str)> {
+        let name = self
+            .columns
+            .get(place)
+            .filter(|_| place >= self.first_of_step)?;
+        match name.as_str() {
+            STEP => Some((
+                Quantity::Step,
+                "s",
+                "length of the macro step that ends here",
+            )),
+            DEGREE => Some((
+                Quantity::Degree,
+                "1",
+                "degree of the multipliers' polynomials in that step",
+            )),
+            EXCHANGED_DEGREE => Some((
+                Quantity::Degree,
+                "1",
+                "degree of the polynomials of exchanged variables in that step",
+            )),
+            ERROR => Some((
+                Quantity::ErrorEstimate,
+                "1",
+                "estimated error of the step as a share of the motion so far",
+            )),
+            REJECTED => Some((
+                Quantity::Rejections,
+                "1",
+                "attempts since the start of the run that were repeated with a shorter step",
+            )),
+            _ => None,
+        }
     }
 
     /// The columns of the outputs of a subsystem.
@@ -169,11 +206,6 @@ impl Row {
         let first = self.first_outputs[subsystem];
         let next = self.first_outputs.get(subsystem + 1);
         &self.columns[first..next.copied().unwrap_or(self.first_multiplier)]
-    }
-
-    /// Whether the length of the macro step is a column.
-    pub(crate) fn shows_step(&self) -> bool {
-        self.shows_step
     }
 
     /// The values, column by column.
@@ -187,22 +219,20 @@ impl Row {
         self.values.get(place).copied()
     }
 
-    /// What the picture of a run shows of a column; `None` if it leaves the column out.
-    pub fn drawn(&self, place: usize) -> Option<Drawn> {
-        if (self.first_multiplier..self.first_residual).contains(&place) {
-            return Some(Drawn::Multiplier);
-        }
+    /// Whether the picture of a run shows a column, unless it is told what to show: positions of joined markers, multipliers,
+    /// residuals on position level, and of a scene without joints all outputs; where the macro step varies its length and its error.
+    pub fn is_drawn(&self, place: usize) -> bool {
         if place >= self.first_of_step {
-            return None;
+            let shown = [STEP, ERROR];
+            return self.shows_step && shown.contains(&self.columns[place].as_str());
         }
         if place >= self.first_residual {
-            let is_position = (place - self.first_residual).is_multiple_of(self.levels);
-            return is_position.then_some(Drawn::Residual);
+            return (place - self.first_residual).is_multiple_of(self.levels);
         }
-        if self.rows() == 0 && place > 0 {
-            return Some(Drawn::Output);
-        }
-        self.positions.contains(&place).then_some(Drawn::Motion)
+        let is_output = (1..self.first_multiplier).contains(&place);
+        place >= self.first_multiplier
+            || (is_output && self.rows() == 0)
+            || self.positions.contains(&place)
     }
 
     /// Columns and values of outputs and multipliers: what may grow.

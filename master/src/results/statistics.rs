@@ -71,6 +71,8 @@ pub struct Corrections {
     pub unconverged: u64,
     /// Macro steps in which a condition was relaxed, since they did not resolve its multiplier.
     pub limited: u64,
+    /// Macro steps with an impact that partners at joints took part in.
+    pub steps_with_impacts: u64,
 }
 
 impl Corrections {
@@ -252,6 +254,8 @@ pub struct ContactStatistics {
     pub ambiguous: u64,
     /// Of them: a contact jams.
     pub jams: u64,
+    /// Whether its partners at joints take part in its impacts.
+    pub crosses_joints: bool,
 }
 
 impl From<v1::Contacts> for ContactStatistics {
@@ -266,6 +270,7 @@ impl From<v1::Contacts> for ContactStatistics {
             robust: contacts.robust,
             ambiguous: contacts.ambiguous,
             jams: contacts.jams,
+            crosses_joints: false,
         }
     }
 }
@@ -301,6 +306,7 @@ impl Statistics {
         self.time_total += time.as_secs_f64();
         self.time_solving += outcome.solving.as_secs_f64();
         self.corrections.count(&outcome.passes);
+        self.corrections.steps_with_impacts += u64::from(outcome.has_impact);
         if degrees != StepDegrees::default() {
             self.degrees.get_or_insert_default().count(degrees);
         }

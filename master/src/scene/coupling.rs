@@ -1,7 +1,9 @@
 //! Reads `[coupling]`: method, parameters, degree and macro step.
 
 use super::degree;
-use super::resolved::{Coupling, Degree, Increment, Iterations, Jacobian, Loads, Otherwise};
+use super::resolved::{
+    Coupling, Degree, ImpactsAtJoints, Increment, Iterations, Jacobian, Loads, Otherwise,
+};
 use super::step_control::{self, MACRO_STEP, MacroSteps, TOLERANCE, VARIABLE};
 use crate::methods::{DEGREE, EXCHANGED_DEGREE, Entry, Method};
 use crate::reading::error_kind::{Names, SceneErrorKind};
@@ -13,7 +15,7 @@ use crate::reading::written::Value;
 pub(super) const METHOD_KEY: &str = "coupling.method";
 
 /// Keys that every method has.
-const COMMON: [Key; 5] = [
+const COMMON: [Key; 6] = [
     Key::new("method", Takes::Choice(Method::NAMES))
         .default("`\"hermite\"`")
         .means("what they compute: [theory](../theory/README.md)"),
@@ -38,6 +40,12 @@ const COMMON: [Key; 5] = [
          worker offers directional derivatives (`linchpin describe` tells), otherwise \
          automatic",
     ),
+    Key::new("impacts", Takes::Choice(&texts(&IMPACTS)))
+        .default_first()
+        .means(
+            "what crosses the joints of a subsystem whose contacts collide: `\"impulses\"`, so that its partners take \
+             part in an impact ([theory](../theory/impacts.md)), or `\"forces\"` alone",
+        ),
 ];
 
 /// Keys that every method with a corrector has.
@@ -88,6 +96,12 @@ const LOADS: [(&str, Loads); 3] = [
     ("automatic", Loads::Automatic),
     ("worker", Loads::Worker),
     ("master", Loads::Master),
+];
+
+/// What crosses joints in an impact.
+const IMPACTS: [(&str, ImpactsAtJoints); 2] = [
+    ("impulses", ImpactsAtJoints::Impulses),
+    ("forces", ImpactsAtJoints::Forces),
 ];
 
 /// How long columns are used.
@@ -175,7 +189,8 @@ pub(super) fn read(
 ) -> Option<Coupling> {
     let choices: Vec<(&str, &Entry<Method>)> =
         Method::ALL.iter().map(|own| (own.name, own)).collect();
-    let [method, exchanged_degree, loads, _, increment] = section.fields(&COMMON, problems);
+    let [method, exchanged_degree, loads, _, increment, impacts] =
+        section.fields(&COMMON, problems);
     let [jacobian, iterations, ..] = section.fields(&CORRECTED, problems);
     let kind = match method {
         Some(field) => field.choice(&choices, problems),
@@ -204,6 +219,7 @@ pub(super) fn read(
         (None, ..) => None,
     };
     let loads = choice(loads, &LOADS, problems);
+    let impacts = choice(impacts, &IMPACTS, problems);
     let jacobian = choice(jacobian, &JACOBIANS, problems);
     let iterations = given(iterations, |field| {
         read_iterations(&field.section(problems)?, steps.as_ref(), problems)
@@ -214,6 +230,7 @@ pub(super) fn read(
         degree: degree?,
         exchanged_degree: exchanged_degree?,
         loads: loads?,
+        impacts: impacts?,
         macro_step: first,
         step_control: control,
         increment: increment?,

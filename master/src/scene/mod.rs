@@ -37,12 +37,13 @@ pub use crate::reading::{
 };
 pub use coupling::methods_with;
 pub use load::{load, parse};
+pub(crate) use resolve::GROUND;
 pub use resolve::SCENE_KEYS;
 pub use resolved::{
-    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, Increment, Index,
-    Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order, Otherwise, Output,
-    Over, Panel, Reference, RunSettings, Served, Side, Spring, StabilitySettings, StepControl,
-    Subsystem, Variant,
+    Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, ImpactsAtJoints,
+    Increment, Index, Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order,
+    Otherwise, Output, Over, Panel, Reference, RunSettings, Served, Side, Spring,
+    StabilitySettings, StepControl, Subsystem, Variant,
 };
 pub use spectrum::{
     RegionPoint, SPECTRUM_KEYS, SpectrumCurve, SpectrumFile, SpectrumRegion, SpectrumScheme,

@@ -79,7 +79,7 @@ pub(super) fn resolve(written: Written, earlier: Vec<SceneError>) -> Result<Scen
 }
 
 /// What stands for the inertial axes as the end of a joint: a subsystem of this name and model that no scene has to list.
-const GROUND: &str = "ground";
+pub(crate) const GROUND: &str = "ground";
 
 fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     let root = Section::root(written)?;

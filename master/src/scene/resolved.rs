@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 pub use crate::joint::Kind as JointKind;
 use crate::reading::overrides::Override;
 pub use coupling::{
-    Coupling, Degree, Increment, Index, Iterations, Jacobian, Loads, Method, Order, Otherwise,
-    Spring, StepControl, Variant,
+    Coupling, Degree, ImpactsAtJoints, Increment, Index, Iterations, Jacobian, Loads, Method,
+    Order, Otherwise, Spring, StepControl, Variant,
 };
 
 /// Who serves a subsystem.
@@ -135,7 +135,7 @@ pub struct Output {
 }
 
 /// One panel of the picture of a run.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Panel {
     /// Label of its axis, with the unit.
     pub label: String,
@@ -146,7 +146,7 @@ pub struct Panel {
 }
 
 /// The x axis of a panel whose curves are not over the time.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Over {
     /// The sum of one or more result columns.
     pub column: Vec<String>,

@@ -1,5 +1,6 @@
 //! The scene as resolved.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::resolved::{
@@ -43,6 +44,9 @@ pub struct Scene {
     pub(super) written: Arc<Written>,
 }
 
+/// Sections that do not decide about a run.
+const APART: [&str; 4] = ["case", "converge", "monolithic", "stability"];
+
 impl Scene {
     /// The same with macro steps of one length: studies look at the method, not at the control of its steps.
     #[must_use]
@@ -54,6 +58,18 @@ impl Scene {
     /// The text of the scene file.
     pub fn text(&self) -> &str {
         self.written.text()
+    }
+
+    /// Every setting of the scene by its dotted key, with all that is put into it beside the file: entries of a list go by their
+    /// names. What is about studies and cases is left out, for it decides about no run. Numbers of equal value have equal texts.
+    pub fn settings(&self) -> BTreeMap<String, String> {
+        let mut settings = self.written.settings();
+        let is_of_run = |key: &String| {
+            let section = key.split('.').next().unwrap_or_default();
+            !APART.contains(&section)
+        };
+        settings.retain(|key, _| is_of_run(key));
+        settings
     }
 
     /// Where a key is set, such as `subsystem.mass1.parameters.m`, or the nearest key around it; absent if the scene

@@ -5,6 +5,7 @@ mod consistent;
 mod degrees;
 mod discover;
 mod geometry;
+mod impacts;
 mod initial;
 mod inside;
 mod options;

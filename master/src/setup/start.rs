@@ -8,17 +8,19 @@ use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
-use super::{consistent, inside, panels, redundancy, velocities};
+use super::{consistent, impacts, inside, panels, redundancy, velocities};
 use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
 use crate::layout::{Coupled, Layout};
-use crate::macro_step::{Corrector, Jacobian, PointJacobian, Run, look_ahead, reach};
+use crate::macro_step::{
+    Colliding, Corrector, Impacts, Jacobian, PointJacobian, Run, look_ahead, reach,
+};
 use crate::methods::{Built, Given, Lacking};
 use crate::policies::columns::{Basis, Columns, Measuring};
 use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::IterationControl;
-use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees, units};
+use crate::results::{Guard, Mechanism, OfStep, Row, Statistics, StepDegrees, described};
 use crate::run::CoSimulation;
 use crate::scene::{self, Coupling, Degree, Scene};
 use crate::system::{Differentiation, Outputs, Sizes, System};
@@ -46,6 +48,7 @@ impl CoSimulation {
         let mut layout = layout_of(scene, &coupled)?;
         inside::look(scene, &models, &mut layout)?;
         let highest = check_degrees(scene, &models, &layout)?;
+        let colliding = impacts::groups(scene, &models, &joints, &layout)?;
         refuse_mixed_degrees(scene, &layout)?;
         let mut recorded = recorded_outputs(scene, &models, &layout.outputs)?;
         if options.record_markers {
@@ -66,6 +69,9 @@ impl CoSimulation {
             }
         }
         refusals.finish()?;
+        for group in &colliding {
+            subsystems[group.finder].couples_impacts = true;
+        }
         let samples = scene.output.interval;
         let samples = samples.map(|interval| Samples::new(scene.t_start, interval));
         let mut workers = Workers::new(subsystems, samples, layout.variables());
@@ -75,7 +81,14 @@ impl CoSimulation {
         initial.read_outputs(scene.t_start, &layout, &mut workers)?;
         layout.border = initial.border.clone();
         let redundancy = redundancy::told(&layout);
-        let mut run = assemble(scene, options, layout, workers, initial, highest)?;
+        let mut run = assemble(
+            scene,
+            options,
+            layout,
+            workers,
+            initial,
+            (highest, colliding),
+        )?;
         begin(&mut run)?;
         let shows_step = scene.coupling.step_control.is_some();
         let subsystems = run.workers.subsystems.iter();
@@ -83,9 +96,13 @@ impl CoSimulation {
         let degrees = run.degrees.as_ref();
         let degrees = degrees.map_or_else(StepDegrees::default, |own| own.of_last_step(|_| 0));
         let error = run.errors.of_last_step();
-        let of_step = OfStep { degrees, error };
+        let of_step = OfStep {
+            degrees,
+            error,
+            rejected: 0,
+        };
         let mut row = Row::new(&run.layout, named, shows_step, of_step);
-        row.set_units(units(&row, &run.layout, &models, &joints));
+        row.describe(described(&row, &run.layout, &models, &joints));
         let points: Vec<_> = scene
             .joints
             .iter()
@@ -127,7 +144,7 @@ fn assemble(
     layout: Layout,
     workers: Workers,
     initial: InitialState,
-    highest: StepDegrees,
+    (highest, colliding): (StepDegrees, Vec<Colliding>),
 ) -> Result<Run, RunError> {
     let coupling = &scene.coupling;
     let plan = plan_of(scene, options);
@@ -171,6 +188,10 @@ fn assemble(
     let corrects = end.is_some() && layout.variables() > 0;
     Ok(Run {
         degrees: AutomaticDegrees::new(stable, &layout, highest, first_degree, first, given),
+        impacts: end
+            .as_ref()
+            .filter(|_| !colliding.is_empty())
+            .map(|(end, _)| Impacts::new(colliding, &layout, end.unknowns())),
         corrector: end.map(|end| Corrector::new(jacobian(end), &layout)),
         point: point.map(|point| PointJacobian::new(jacobian(point))),
         iteration: IterationControl::new(

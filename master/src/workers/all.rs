@@ -28,6 +28,19 @@ impl Workers {
         }
     }
 
+    /// Ends all workers at once: one that hangs takes its time to end, and many do not take many times that.
+    fn end(&mut self) {
+        let subsystems = std::mem::take(&mut self.subsystems);
+        let (others, here): (Vec<_>, Vec<_>) =
+            subsystems.into_iter().partition(Subsystem::is_elsewhere);
+        drop(here);
+        std::thread::scope(|scope| {
+            for subsystem in others {
+                scope.spawn(move || drop(subsystem));
+            }
+        });
+    }
+
     /// Coupling outputs at the present macro point.
     pub(crate) fn now(&self) -> Now<'_> {
         Now(&self.subsystems)
@@ -47,5 +60,11 @@ impl Workers {
             subsystems: &self.subsystems,
             place,
         }
+    }
+}
+
+impl Drop for Workers {
+    fn drop(&mut self) {
+        self.end();
     }
 }

@@ -6,12 +6,14 @@
 //! * `requests`: what the next requests to all of them ask for;
 //! * `views`: what they have answered, as values;
 //! * `exchange`: all requests out, all answers in;
+//! * `impacts`: what requests and answers say of impacts;
 //! * `samples`: results at fixed times inside a macro step;
 //! * `varying`: exchanges after which a shorter macro step may follow;
 //! * `substeps`: an advance that a worker cannot take at once.
 
 mod all;
 mod exchange;
+mod impacts;
 mod look;
 mod requests;
 mod samples;

@@ -4,6 +4,7 @@ use super::all::Workers;
 use super::look::Look;
 use super::subsystem::Ahead;
 use crate::layout::{Layout, Over};
+use crate::results::Cause;
 use crate::signal::Curves;
 use crate::system::Perturbation;
 use crate::time::MacroStep;
@@ -39,7 +40,9 @@ impl Workers {
     ) {
         let subsystem = &mut self.subsystems[number];
         let inputs = layout.inputs_of(number);
+        let impacts = subsystem.impacts.clone();
         let advance = subsystem.advance_to_fill();
+        advance.impacts = impacts;
         advance.t = step.start;
         advance.step = step.length;
         advance.signals.resize_with(inputs.len(), Default::default);
@@ -69,7 +72,14 @@ impl Workers {
         for (number, subsystem) in self.subsystems.iter_mut().enumerate() {
             if look.ahead == Ahead::Step {
                 subsystem.looks_ahead_for = look.cause;
+                if look.cause == Cause::Predictor {
+                    subsystem.forget_impacts();
+                }
             }
+            let impacts = match (look.ahead, look.cause) {
+                (Ahead::Step, Cause::Pass) => subsystem.impacts.clone(),
+                _ => None,
+            };
             if !subsystem.is_read() {
                 continue;
             }
@@ -83,6 +93,7 @@ impl Workers {
                 .filter(|one| one.increment.is_none())
                 .count();
             let request = subsystem.look(look.ahead);
+            (request.impacts, request.interface) = (impacts, None);
             request.t = look.t;
             request.step = look.length;
             request.signals.resize_with(inputs.len(), Default::default);

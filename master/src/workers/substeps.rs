@@ -62,7 +62,25 @@ fn substep_of(whole: &v1::Advance, start: f64, end: f64) -> v1::Advance {
         step: end - start,
         signals: signals.collect(),
         samples: samples.map(|sample| sample - start).collect(),
+        impacts: whole
+            .impacts
+            .as_ref()
+            .map(|all| impacts_of(all, start, end)),
         ..v1::Advance::default()
+    }
+}
+
+/// The impacts from `start`, which belong to the part before unless it is the first, to `end`.
+fn impacts_of(all: &v1::Impacts, start: f64, end: f64) -> v1::Impacts {
+    let inside = |impact: &&v1::Impact| {
+        (impact.at > start || start == 0.0 && impact.at == 0.0) && impact.at <= end
+    };
+    let impacts = all.impacts.iter().filter(inside).map(|impact| v1::Impact {
+        at: impact.at - start,
+        ..impact.clone()
+    });
+    v1::Impacts {
+        impacts: impacts.collect(),
     }
 }
 

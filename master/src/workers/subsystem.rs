@@ -73,6 +73,10 @@ pub struct Subsystem {
     pub(crate) tolerance: Option<f64>,
     /// Whether its perturbed steps repeat the internal steps of the step that they are compared with.
     pub(crate) repeats_steps: bool,
+    /// Whether it finds impacts that its partners take part in.
+    pub(crate) couples_impacts: bool,
+    /// The impacts of the present macro step, as they are given to it.
+    pub(crate) impacts: Option<v1::Impacts>,
     /// Whether it offers directional derivatives.
     pub(crate) offers_derivatives: bool,
     /// Whether its states can leave its process.
@@ -88,7 +92,11 @@ pub struct Subsystem {
 }
 
 impl Subsystem {
-    pub(crate) fn new(name: &str, connection: Box<dyn Connection>, settings: RecoverySettings) -> Self {
+    pub(crate) fn new(
+        name: &str,
+        connection: Box<dyn Connection>,
+        settings: RecoverySettings,
+    ) -> Self {
         Self {
             name: name.to_owned(),
             connection,
@@ -106,6 +114,8 @@ impl Subsystem {
             outputs: Vec::new(),
             tolerance: None,
             repeats_steps: false,
+            couples_impacts: false,
+            impacts: None,
             offers_derivatives: false,
             exports_states: false,
             work: v1::Work::default(),
@@ -137,7 +147,10 @@ impl Subsystem {
             solver_steps: work.steps,
             time_in_solver: work.nanoseconds as f64 * 1e-9,
             unresolved,
-            contacts: work.contacts.map(ContactStatistics::from),
+            contacts: work.contacts.map(|contacts| ContactStatistics {
+                crosses_joints: self.couples_impacts,
+                ..contacts.into()
+            }),
             recoveries: self.recovery.done,
         }
     }
@@ -153,6 +166,11 @@ impl Subsystem {
             noise: self.tolerance.filter(|_| !self.repeats_steps),
             has_derivatives: self.offers_derivatives,
         }
+    }
+
+    /// Whether its worker is a process of its own.
+    pub(super) fn is_elsewhere(&self) -> bool {
+        self.connection.is_renewable()
     }
 
     /// Which way the exchange takes.

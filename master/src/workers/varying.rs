@@ -14,7 +14,8 @@ use crate::time::MacroStep;
 impl Workers {
     /// A look-ahead of all subsystems, after which a shorter one may follow.
     pub(crate) fn try_look(&mut self, step: MacroStep) -> Result<(), RunError> {
-        look(&mut self.subsystems, step)
+        let mut all: Vec<_> = self.subsystems.iter_mut().collect();
+        look(&mut all, step)
     }
 
     /// The advance of all subsystems over `step` and their look-ahead over the following one, which may come to nothing: then gives why.
@@ -23,10 +24,10 @@ impl Workers {
     }
 }
 
-/// A look-ahead of all subsystems, without an advance. All answers are taken, so that the next request may follow whatever came; a
+/// A look-ahead of these subsystems, without an advance. All answers are taken, so that the next request may follow whatever came; a
 /// failure that a shorter step does not cure is told before others.
 #[tracing::instrument(name = "exchange", level = "trace", skip_all)]
-fn look(subsystems: &mut [Subsystem], step: MacroStep) -> Result<(), RunError> {
+pub(super) fn look(subsystems: &mut [&mut Subsystem], step: MacroStep) -> Result<(), RunError> {
     for subsystem in &mut *subsystems {
         subsystem.post(step)?;
     }

@@ -192,6 +192,22 @@ impl<E: EquationOfMotion, S: Solver<E>> Subsystem for Run<E, S> {
         read(&self.equation, &response, &u, wanted, values)
     }
 
+    /// Rates are linear in loads, and positions have rates that do not depend on them.
+    fn impulse(&mut self, t: f64, inputs: &[f64], impulses: &[f64]) -> Result<(), StepFailure> {
+        let raised: Vec<f64> = inputs.iter().zip(impulses).map(|(u, p)| u + p).collect();
+        let rate = |inputs: &[f64]| {
+            let mut u = self.joint_loads.inputs(&self.equation, &self.state, inputs);
+            self.equation.add_own_loads(t, &mut u);
+            self.equation.rate(&self.state, &u)
+        };
+        let (with, without) = (rate(&raised), rate(inputs));
+        let jumps = with.as_ref().iter().zip(without.as_ref());
+        for (own, (with, without)) in self.state.as_mut().iter_mut().zip(jumps) {
+            *own += with - without;
+        }
+        Ok(())
+    }
+
     fn integrate_outputs(&mut self, outputs: &[usize], weights: usize) -> Result<(), StepFailure> {
         self.integrals.choose(outputs, weights);
         Ok(())

@@ -51,6 +51,7 @@ pub fn kind(name: &str, description: &str, options: Vec<v1::Parameter>) -> v1::S
         name: name.to_owned(),
         description: description.to_owned(),
         options,
+        ..v1::SolverKind::default()
     }
 }
 
@@ -61,6 +62,7 @@ pub fn capabilities() -> v1::Capabilities {
         exportable_snapshot: true,
         joint_loads: true,
         output_integrals: true,
+        impulses: true,
         ..v1::Capabilities::default()
     }
 }

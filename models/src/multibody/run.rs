@@ -252,6 +252,19 @@ impl Subsystem for Run {
         Ok(())
     }
 
+    /// Rates are linear in loads, and positions have rates that do not depend on them.
+    fn impulse(&mut self, t: f64, inputs: &[f64], impulses: &[f64]) -> Result<(), StepFailure> {
+        let raised: Vec<f64> = inputs.iter().zip(impulses).map(|(u, p)| u + p).collect();
+        let mut without = vec![0.0; self.state.len()];
+        self.formulation
+            .rate(t, &self.state, &raised, &mut self.reached);
+        self.formulation.rate(t, &self.state, inputs, &mut without);
+        for (own, (with, without)) in self.state.iter_mut().zip(self.reached.iter().zip(without)) {
+            *own += with - without;
+        }
+        Ok(())
+    }
+
     fn integrate_outputs(&mut self, outputs: &[usize], weights: usize) -> Result<(), StepFailure> {
         self.integrals.choose(outputs, weights);
         Ok(())

@@ -123,6 +123,25 @@ impl Mechanics {
         self.system.force(at, force);
     }
 
+    /// Writes the generalised direction of a load, a value for each input: what it adds to the forces.
+    pub fn load_direction(&self, [q, v]: [&[f64]; 2], load: &[f64], direction: &mut [f64]) {
+        let forces = |inputs: &[f64]| {
+            let mut forces = vec![0.0; q.len()];
+            let at = Instant {
+                t: 0.0,
+                q,
+                v,
+                inputs,
+            };
+            self.system.force(at, &mut forces);
+            forces
+        };
+        let (with, without) = (forces(load), forces(&vec![0.0; load.len()]));
+        for (direction, (with, without)) in direction.iter_mut().zip(with.iter().zip(without)) {
+            *direction = with - without;
+        }
+    }
+
     /// Adds `K` and `C`; whether there are any.
     pub fn tangents(
         &mut self,

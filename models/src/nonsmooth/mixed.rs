@@ -1,19 +1,23 @@
 //! Mixed timestepping (S2 Sect. 2.3, Fig. 4): a step without impacts by a base scheme, corrected by impulses where a
 //! contact closes in it.
 
+mod collisions;
 mod growth;
 mod losses;
 mod memory;
 
 use self::growth::Growth;
-use super::activity::{closed_contacts, closes_anew};
+use super::activity::closed_contacts;
 use super::contact_log::ContactLog;
-use super::impact;
+use super::impact::{self, AtJoints};
+use super::matrix::add_scaled;
 use super::mechanics::{Mechanics, Settings, StepError};
 use super::schemes::{Outcome, Scheme, SchemeError, SchemeKind};
-use super::start::{Contacts, accelerate, relative_velocity};
+use super::start::{Contacts, accelerate};
 use super::state::{Drive, State, Step};
 use super::system::{MechanicalSystem, Side};
+
+pub use self::collisions::{Collision, Collisions};
 
 /// A system with a scheme in motion.
 pub struct Integrator {
@@ -28,6 +32,9 @@ pub struct Integrator {
     gaps: Vec<f64>,
     closed: Vec<bool>,
     closed_next: Vec<bool>,
+    /// Contacts that have closed in a step whose collisions were given, without one of theirs: they are open until they collide.
+    pending: Vec<bool>,
+    pending_next: Vec<bool>,
     /// Velocities before the impulses of the last correction.
     before_impact: Vec<f64>,
     /// Whether the last step was corrected.
@@ -62,6 +69,8 @@ impl Integrator {
             gaps: vec![0.0; contacts],
             closed: vec![false; contacts],
             closed_next: vec![false; contacts],
+            pending: vec![false; contacts],
+            pending_next: vec![false; contacts],
             before_impact: vec![0.0; q.len()],
             was_corrected: false,
             friction_power: 0.0,
@@ -75,17 +84,31 @@ impl Integrator {
     /// # Errors
     /// [`StepError`].
     pub fn start(&mut self, drive: Drive<'_>) -> Result<(), StepError> {
+        self.start_with(drive, Collisions::Found(None))
+    }
+
+    /// The same with what collides there.
+    ///
+    /// # Errors
+    /// [`StepError`].
+    pub fn start_with(
+        &mut self,
+        drive: Drive<'_>,
+        collisions: Collisions<'_>,
+    ) -> Result<(), StepError> {
         self.find_closed();
         self.next.copy_from(&self.state);
         self.closed_next.copy_from_slice(&self.closed);
         let mut log = self.log;
+        self.was_corrected = false;
         if !self.mechanics.settings.has_consistent_start {
             self.accelerate(drive, Contacts::Ignored)?;
-        } else if self.approaches() {
-            self.correct(&mut log, drive)?;
-            self.accelerate(drive, Contacts::Acting)?;
         } else {
+            if self.collides_at_start(&collisions) {
+                self.correct(&mut log, drive, collisions)?;
+            }
             self.accelerate(drive, Contacts::Acting)?;
+            std::mem::swap(&mut self.pending, &mut self.pending_next);
         }
         self.friction_power = self.friction_power_of_next();
         self.log = log;
@@ -98,13 +121,34 @@ impl Integrator {
     /// # Errors
     /// [`StepError`].
     pub fn step(&mut self, drive: Drive<'_>, dt: f64) -> Result<(), StepError> {
-        let stepped = self.try_step(drive, dt);
+        self.step_with(drive, dt, Collisions::Found(None))
+    }
+
+    /// The same with what collides in it.
+    ///
+    /// # Errors
+    /// [`StepError`].
+    pub fn step_with(
+        &mut self,
+        drive: Drive<'_>,
+        dt: f64,
+        collisions: Collisions<'_>,
+    ) -> Result<(), StepError> {
+        let stepped = self.try_step(drive, dt, collisions);
         self.growth.note(&self.state.v);
         stepped.map_err(|error| self.growth.explain(error, &self.state.v))
     }
 
-    fn try_step(&mut self, drive: Drive<'_>, dt: f64) -> Result<(), StepError> {
+    fn try_step(
+        &mut self,
+        drive: Drive<'_>,
+        dt: f64,
+        collisions: Collisions<'_>,
+    ) -> Result<(), StepError> {
         self.find_closed();
+        if let Collisions::Repeated { active, .. } = collisions {
+            self.closed.copy_from_slice(active);
+        }
         let step = Step {
             drive,
             tau: self.state.tau,
@@ -132,9 +176,9 @@ impl Integrator {
             Outcome::Smooth => {
                 friction_power = self.friction_power_of_next();
                 log.friction_loss += 0.5 * dt * (self.friction_power + friction_power);
-                let has_impact = closes_anew(&self.closed, &self.closed_next);
+                let has_impact = self.collides(&collisions);
                 if has_impact {
-                    self.correct(&mut log, drive)?;
+                    self.correct(&mut log, drive, collisions)?;
                 }
                 let restarts = self.mechanics.settings.restarts_after_impacts;
                 if restarts && (has_impact || has_jammed) {
@@ -161,6 +205,7 @@ impl Integrator {
         self.log = log;
         self.friction_power = friction_power;
         self.mechanics.counters.steps += 1;
+        std::mem::swap(&mut self.pending, &mut self.pending_next);
         std::mem::swap(&mut self.state, &mut self.next);
         Ok(())
     }
@@ -188,6 +233,25 @@ impl Integrator {
         Ok(&self.next.a)
     }
 
+    /// The inputs jump here, from those of one drive to those of another: accelerations and forces jump with them. What the scheme keeps of
+    /// earlier accelerations beside that stays.
+    ///
+    /// # Errors
+    /// [`StepError`].
+    pub fn pass_jump(&mut self, before: Drive<'_>, behind: Drive<'_>) -> Result<(), StepError> {
+        let mut jump = self.accelerations(before)?.to_vec();
+        self.accelerations(behind)?;
+        for (jump, behind) in jump.iter_mut().zip(&self.next.a) {
+            *jump = behind - *jump;
+        }
+        self.state.forces.copy_from_slice(&self.next.forces);
+        for own in [&mut self.state.a, &mut self.state.auxiliary] {
+            add_scaled(1.0, &jump, own);
+        }
+        self.friction_power = self.friction_power_of_next();
+        Ok(())
+    }
+
     /// Velocities before the impulses of the last step, if it had any that corrected it: then
     /// `M(q) (v^+ - v^-) = W(q) Lambda` holds for the velocities and impulses of the state.
     pub fn velocities_before_impact(&self) -> Option<&[f64]> {
@@ -202,6 +266,9 @@ impl Integrator {
     fn find_closed(&mut self) {
         self.mechanics.system.gaps(&self.state.q, &mut self.gaps);
         closed_contacts(self.mechanics.contacts(), &self.gaps, &mut self.closed);
+        for (closed, pending) in self.closed.iter_mut().zip(&self.pending) {
+            *closed &= !pending;
+        }
         if self.mechanics.settings.holds_pressed_contacts {
             add_pressed(&self.mechanics, &self.state.forces, &mut self.closed);
         }
@@ -214,28 +281,35 @@ impl Integrator {
             .map(|(_, &gap)| gap)
     }
 
-    /// Whether a closed contact moves further together in `next`.
-    fn approaches(&mut self) -> bool {
-        self.mechanics.direct(&self.next.q, &self.closed_next);
-        let contacts = self.mechanics.contacts().iter().zip(&self.closed_next);
-        let mut closed = contacts
-            .enumerate()
-            .filter(|(_, (contact, closed))| contact.side == Side::Unilateral && **closed);
-        closed.any(|(index, _)| {
-            let row = self.mechanics.first_row(index);
-            relative_velocity(&self.mechanics, row, &self.next.v) < 0.0
-        })
-    }
-
     /// The impulsive correction of the velocities in `next`.
-    fn correct(&mut self, log: &mut ContactLog, drive: Drive<'_>) -> Result<(), StepError> {
+    fn correct(
+        &mut self,
+        log: &mut ContactLog,
+        drive: Drive<'_>,
+        collisions: Collisions<'_>,
+    ) -> Result<(), StepError> {
+        let at_joints = match collisions {
+            Collisions::Found(Some(partners)) => AtJoints::Partners(partners),
+            Collisions::Given(Some(given))
+            | Collisions::Repeated {
+                given: Some(given), ..
+            } if !given.loads.is_empty() => AtJoints::Loads(given.loads),
+            _ => AtJoints::Nothing,
+        };
         let next = &mut self.next;
         let system = &self.mechanics.system;
         let before = system.energy(&next.q, &next.v);
         self.before_impact.copy_from_slice(&next.v);
         let (closed, impulses) = (&self.closed_next, &mut next.impulses);
-        impact::correct(&mut self.mechanics, closed, &next.q, &mut next.v, impulses)?;
-        log.impact_loss += before - self.mechanics.system.energy(&next.q, &next.v);
+        let work = impact::correct(
+            &mut self.mechanics,
+            closed,
+            &next.q,
+            &mut next.v,
+            impulses,
+            at_joints,
+        )?;
+        log.impact_loss += before + work - self.mechanics.system.energy(&next.q, &next.v);
         self.note_impact(log, drive);
         self.was_corrected = true;
         Ok(())

@@ -55,7 +55,7 @@ impl Case {
 }
 
 /// At least one case of every model.
-pub const CASES: [Case; 20] = [
+pub const CASES: [Case; 21] = [
     Case {
         model: "oscillator",
         parameters: &[
@@ -221,6 +221,22 @@ pub const CASES: [Case; 20] = [
         load: 0.01,
     },
     Case {
+        model: "rod-slider",
+        parameters: &[
+            ("c", 3.1e-4),
+            ("friction", 0.07),
+            ("x_0", 0.147),
+            ("y_0", 0.045),
+            ("theta2_0", -0.149),
+            ("vx_0", -5.1),
+            ("vy_0", 16.0),
+            ("omega2_0", -53.0),
+        ],
+        composition: &[],
+        is_minimal: false,
+        load: 1.3,
+    },
+    Case {
         model: "mass-chain",
         parameters: &[
             ("m1", 1.3),
@@ -381,6 +397,13 @@ impl Body {
     pub fn input(&self, name: &str) -> f64 {
         let place = self.model.inputs.iter().position(|own| own.name == name);
         self.inputs.value(place.unwrap(), 0.0)
+    }
+
+    /// All of them.
+    pub fn input_values(&self) -> Vec<f64> {
+        let mut values = vec![0.0; self.inputs.len()];
+        self.inputs.values_at(0.0, &mut values);
+        values
     }
 
     pub fn advance(&mut self, length: f64) {

@@ -25,6 +25,8 @@ mod markers;
 mod mistakes;
 mod model_problem;
 mod painleve;
+mod partners;
+mod pending;
 mod quadrature;
 mod rocking;
 mod rod;

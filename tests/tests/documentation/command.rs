@@ -27,11 +27,14 @@ impl Command {
             .collect()
     }
 
-    /// The page says that this is a mistake.
-    pub fn is_refused(&self) -> bool {
-        self.output
-            .first()
-            .is_some_and(|line| line.starts_with("error"))
+    /// The exit code that the page tells: 2 if it shows a mistake, 1 if it shows runs that differ.
+    pub fn exit_code(&self) -> i32 {
+        let is_difference = |line: &String| line.starts_with("error: the runs differ");
+        let first = self.output.first();
+        match first.is_some_and(|line| line.starts_with("error")) {
+            true => 2,
+            false => self.output.iter().any(is_difference).into(),
+        }
     }
 }
 

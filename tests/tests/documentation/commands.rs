@@ -87,7 +87,7 @@ fn check(workshop: &Workshop, command: &Command) {
         arguments.extend(["--set", setting]);
     }
     let outcome = workshop.run(&arguments);
-    let code = if command.is_refused() { 2 } else { 0 };
+    let code = command.exit_code();
     // Shown if the demand fails.
     println!("{}", command.place);
     outcome.exits_with(code);

@@ -28,7 +28,7 @@ fn walk(name: &str) {
     let mut shown = 0;
     for command in commands(&page) {
         let outcome = workshop.run(&command.arguments);
-        let code = if command.is_refused() { 2 } else { 0 };
+        let code = command.exit_code();
         outcome.exits_with(code);
         let printed = [outcome.stdout, outcome.stderr].join("\n");
         compare(&command, &printed);

@@ -195,11 +195,20 @@ fn a_checkpoint_that_cannot_be_written_is_told_and_the_run_goes_on() {
     running.wait_for_rows("out");
     let in_the_way = workshop.path().join("out/checkpoint.unfinished");
     // It may stand there for a moment.
-    running.wait_until("a folder in the way", |_| fs::create_dir(&in_the_way).is_ok());
-    running.wait_until("a warning", |running| running.stderr().contains("no checkpoint"));
+    running.wait_until("a folder in the way", |_| {
+        fs::create_dir(&in_the_way).is_ok()
+    });
+    running.wait_until("a warning", |running| {
+        running.stderr().contains("no checkpoint")
+    });
     fs::remove_dir(&in_the_way).unwrap();
     let outcome = running.wait();
-    outcome.succeeds().says(&["warning", "no checkpoint at t = ", "cannot write to out", "still serves"]);
+    outcome.succeeds().says(&[
+        "warning",
+        "no checkpoint at t = ",
+        "cannot write to out",
+        "still serves",
+    ]);
 }
 
 #[test]

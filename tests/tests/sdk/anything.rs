@@ -60,18 +60,41 @@ enum Call {
 }
 
 prop_compose! {
+    fn impact()(at in numbers(), contacts in proptest::collection::vec(0u32..3, 0..3),
+        loads in proptest::collection::vec(numbers(), 0..3)) -> v1::Impact {
+        v1::Impact { at, contacts, loads, multipliers: Vec::new() }
+    }
+}
+
+fn impacts() -> impl Strategy<Value = Option<v1::Impacts>> {
+    let impacts = proptest::collection::vec(impact(), 0..3);
+    proptest::option::of(impacts.prop_map(|impacts| v1::Impacts { impacts }))
+}
+
+fn interface() -> impl Strategy<Value = Option<v1::Interface>> {
+    let lists = [0; 2].map(|_| proptest::collection::vec(numbers(), 0..3));
+    let interface = (0u32..3, lists).prop_map(|(rows, [directions, mobility])| v1::Interface {
+        rows,
+        directions,
+        mobility,
+    });
+    proptest::option::of(interface)
+}
+
+prop_compose! {
     fn step()(sequence in 40u64..46, outputs in -1..3i32, t in numbers(), step in numbers(), signals in signals(),
-        instants in instants(), integrals in integrals()) -> v1::StepRequest {
-        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs, instants, integrals }
+        instants in instants(), integrals in integrals(), impacts in impacts(), interface in interface(),
+    ) -> v1::StepRequest {
+        v1::StepRequest { instance: 5, sequence, t, step, signals, outputs, instants, integrals, impacts, interface }
     }
 }
 
 prop_compose! {
     fn look()(
         t in numbers(), step in numbers(), signals in signals(), perturbed in signals(), directions in signals(),
-        instants in instants(), integrals in integrals(),
+        instants in instants(), integrals in integrals(), impacts in impacts(), interface in interface(),
     ) -> v1::Predict {
-        v1::Predict { t, step, signals, perturbed, directions, instants, integrals }
+        v1::Predict { t, step, signals, perturbed, directions, instants, integrals, impacts, interface }
     }
 }
 
@@ -91,6 +114,8 @@ fn call() -> impl Strategy<Value = Call> {
             directions: look.directions,
             instants: look.instants,
             integrals: look.integrals,
+            impacts: look.impacts,
+            interface: look.interface,
         })),
         (look(), proptest::collection::vec(name, 0..3)).prop_map(|(look, outputs)| {
             Call::Evaluate(v1::EvaluateRequest {
@@ -113,6 +138,7 @@ fn call() -> impl Strategy<Value = Call> {
                         samples,
                         instants: step.instants,
                         integrals: step.integrals,
+                        impacts: step.impacts,
                     }),
                     predict: optional(predicts, ahead),
                     go_back,

@@ -50,6 +50,7 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             "pi-controller",
             "planar-body",
             "planar-multibody",
+            "rod-slider",
             "slider-crank",
             "spatial-body",
             "spatial-multibody",
@@ -63,12 +64,14 @@ fn describe_names_models_and_capabilities(serve: Serve) {
         "block",
         "bouncing-ball",
         "mass-chain",
+        "rod-slider",
         "slider-crank",
         "woodpecker",
     ];
     let without_joint_loads = [&nonsmooth[..], &["oscillator", "pi-controller", "tank"]].concat();
     for model in &reply.models {
         let repeats_step_sequence = !["stand", "tank"].contains(&model.name.as_str());
+        let impacts = nonsmooth.contains(&model.name.as_str()) && model.name != "mass-chain";
         let expected = v1::Capabilities {
             exchange: true,
             repeats_step_sequence,
@@ -80,6 +83,9 @@ fn describe_names_models_and_capabilities(serve: Serve) {
             output_integrals: ![&nonsmooth[..], &["stand", "tank"]]
                 .concat()
                 .contains(&model.name.as_str()),
+            // A chain has a wall only if its parameters say so.
+            impulses: !impacts && !["stand", "tank"].contains(&model.name.as_str()),
+            impacts,
         };
         assert_eq!(model.capabilities, Some(expected), "{}", model.name);
     }

@@ -10,6 +10,7 @@ mod evaluations;
 mod exchange;
 mod exported_states;
 mod going_back;
+mod impacts;
 mod initialize;
 mod instances;
 mod instants;

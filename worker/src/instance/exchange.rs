@@ -84,8 +84,12 @@ impl Instance {
             perturbed: &mut reply.perturbed,
             derivatives: &mut reply.derivatives,
         };
+        reply.impacts = None;
         match &request.predict {
-            Some(predict) => self.look_ahead(base, predict, predicted)?,
+            Some(predict) => {
+                self.look_ahead(base, predict, predicted)?;
+                reply.impacts = self.motion.found_impacts(&predict.instants);
+            }
             None => predicted.clear(),
         }
         if base == Base::Advanced {
@@ -108,6 +112,8 @@ impl Instance {
             instants: &advance.instants,
             integrals: advance.integrals,
         };
+        self.motion
+            .treat_impacts(advance.step, advance.impacts.as_ref(), None)?;
         self.motion.advance(
             (interval, inside),
             &advance.signals,
@@ -135,7 +141,9 @@ impl Instance {
         let outputs = into.outputs.get_or_insert_default();
         self.motion.set_signals(&look.signals)?;
         self.motion.integrate_outputs(look.integrals)?;
-        if let (Horizon::Step(interval), [_, ..]) = (horizon, &look.instants[..]) {
+        let (impacts, interface) = (look.impacts.as_ref(), look.interface.as_ref());
+        self.motion.treat_impacts(look.step, impacts, interface)?;
+        if let (Horizon::Step(interval), true) = (horizon, self.motion.is_cut(&look.instants)) {
             let step = (interval, &look.instants[..]);
             let answers = (Some(&mut outputs.values), into.perturbed);
             self.motion
@@ -208,6 +216,7 @@ fn copy(from: &v1::ExchangeReply, to: &mut v1::ExchangeReply) {
         }
     }
     to.work = from.work;
+    to.impacts.clone_from(&from.impacts);
     to.failure = None;
 }
 

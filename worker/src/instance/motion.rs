@@ -1,6 +1,7 @@
 //! A subsystem on its way: steps, outputs, and the states that it can go back to.
 
 mod cut;
+mod impacts;
 mod integrals;
 mod look_ahead;
 mod meter;
@@ -11,6 +12,7 @@ use linchpin_proto::v1::{self, Failure};
 use super::signals::{Signals, find};
 use crate::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
 
+use impacts::Treated;
 use integrals::Integrated;
 
 pub(super) use look_ahead::{Horizon, Sequence};
@@ -51,6 +53,7 @@ pub(super) struct Motion {
     all_outputs: Vec<usize>,
     interior_outputs: Vec<usize>,
     integrated: Integrated,
+    treated: Treated,
     stands_at: StateNumber,
     newest: StateNumber,
     last_step: Option<(Interval, StateNumber)>,
@@ -112,6 +115,7 @@ impl Motion {
             all_outputs,
             interior_outputs,
             integrated: Integrated::new(integrated, model)?,
+            treated: Treated::new(model),
             stands_at: committed.number,
             newest: committed.number,
             last_step: None,
@@ -147,7 +151,7 @@ impl Motion {
         self.signals.set(signals)?;
         self.integrate_outputs(inside.integrals)?;
         self.go_to(Base::Committed)?;
-        if inside.instants.is_empty() {
+        if !self.is_cut(inside.instants) {
             self.integrate(interval, Sequence::Own)?;
             self.read(interval, outputs, values)?;
             self.append_integrals(interval, values)?;
@@ -167,7 +171,12 @@ impl Motion {
         values: &mut Vec<f64>,
     ) -> Result<(), Failure> {
         self.go_to(Base::Committed)?;
-        self.integrate(interval, Sequence::Own)?;
+        if self.is_struck() {
+            self.step_to_sample(interval)?;
+        } else {
+            self.begin_part([0.0, interval.length])?;
+            self.integrate(interval, Sequence::Own)?;
+        }
         self.read(interval, v1::OutputSet::All, values)
     }
 

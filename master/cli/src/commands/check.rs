@@ -1,13 +1,16 @@
 //! `linchpin check`: validates a scene and starts nothing.
 
+use std::path::Path;
+
 use linchpin_master::CoSimulation;
 use linchpin_master::scene::{
     Case, Scene, Served, Subsystem, is_spectrum, is_study, load_spectrum, load_study,
 };
 use linchpin_master::setup::{Options, check_some};
+use serde::Serialize;
 
 use super::CommandError;
-use super::common::{SceneArguments, case_folders, print, warn};
+use super::common::{SceneArguments, case_folders, print, print_json, warn};
 use crate::connect::{Connector, Place};
 use crate::study::report::{Depth, Plan};
 
@@ -16,45 +19,156 @@ use crate::study::report::{Depth, Plan};
 #[command(after_help = "Examples:
   linchpin check scenes/oscillator.toml
   linchpin check scenes/oscillator.toml --set coupling.index=3 --set coupling.degree=1
+  linchpin check scenes/oscillator.toml --json
 
 Exit code 0: the scene can run (warnings may have been printed); 2: it cannot.")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
+
+    /// Print what was found as JSON: mistakes with their places, warnings
+    #[arg(long)]
+    json: bool,
+}
+
+/// What was found in a file that is sound.
+struct Checked {
+    /// What kind of file it is.
+    kind: Kind,
+    /// What is known to go wrong nevertheless.
+    warnings: Vec<String>,
+    /// Subsystems of workers that would have to be started.
+    unchecked: Vec<String>,
+}
+
+/// Kinds of files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Scene,
+    Study,
+    Spectrum,
+}
+
+impl Checked {
+    fn sound(kind: Kind) -> Self {
+        Self {
+            kind,
+            warnings: Vec::new(),
+            unchecked: Vec::new(),
+        }
+    }
 }
 
 /// Checks the scene and all its cases, or a file for `linchpin spectrum` or `linchpin report`.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    if is_spectrum(&arguments.scene.scene) {
-        return check_spectrum(&arguments.scene);
+    let path = &arguments.scene.scene;
+    let checked = if is_spectrum(path) {
+        check_spectrum(&arguments.scene)
+    } else if is_study(path) {
+        check_study(&arguments.scene)
+    } else {
+        check_scene(&arguments.scene)
+    };
+    if arguments.json {
+        print_json(&Document::of(path, &checked))?;
+        return checked.map(|_| ());
     }
-    if is_study(&arguments.scene.scene) {
-        return check_study(&arguments.scene);
+    let checked = checked?;
+    let file = path.display();
+    match (checked.kind, &checked.unchecked[..]) {
+        (Kind::Study, _) => print(format_args!(
+            "{file}: ok as a study; linchpin report runs it\n"
+        )),
+        (_, []) => print(format_args!("{file}: ok\n")),
+        (_, unchecked) => print(format_args!(
+            "{file}: ok as far as it can be told without the workers of {}; their models and parameters, and the joints, were \
+             not checked\n",
+            unchecked.join(", ")
+        )),
     }
-    let scene = arguments.scene.load()?;
+}
+
+/// What was found, as JSON.
+#[derive(Serialize)]
+struct Document<'a> {
+    file: String,
+    ok: bool,
+    /// Absent for a file with mistakes.
+    kind: Option<Kind>,
+    errors: Vec<Mistake>,
+    warnings: &'a [String],
+    unchecked: &'a [String],
+}
+
+/// A mistake and where it is.
+#[derive(Serialize)]
+struct Mistake {
+    message: String,
+    help: Option<String>,
+    /// The file, or the setting of the command line.
+    origin: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    case: Option<String>,
+}
+
+impl<'a> Document<'a> {
+    fn of(path: &Path, checked: &'a Result<Checked, CommandError>) -> Self {
+        let found = checked.as_ref().ok();
+        Self {
+            file: path.display().to_string(),
+            ok: checked.is_ok(),
+            kind: found.map(|own| own.kind),
+            errors: checked.as_ref().err().map_or_else(Vec::new, mistakes),
+            warnings: found.map_or(&[], |own| &own.warnings),
+            unchecked: found.map_or(&[], |own| &own.unchecked),
+        }
+    }
+}
+
+fn mistakes(error: &CommandError) -> Vec<Mistake> {
+    let Some(errors) = error.scene_errors() else {
+        return vec![Mistake {
+            message: error.to_string(),
+            help: None,
+            origin: None,
+            line: None,
+            column: None,
+            case: None,
+        }];
+    };
+    let mistakes = errors.iter().map(|error| {
+        let place = error.place.as_ref();
+        Mistake {
+            message: error.message(),
+            help: error.help(),
+            origin: place.map(|place| place.origin().to_owned()),
+            line: place.map(|place| place.line),
+            column: place.map(|place| place.column),
+            case: error.case.clone(),
+        }
+    });
+    mistakes.collect()
+}
+
+fn check_scene(arguments: &SceneArguments) -> Result<Checked, CommandError> {
+    let scene = arguments.load()?;
+    let mut checked = Checked::sound(Kind::Scene);
+    let told = linchpin_master::scene::warnings(&scene);
+    checked.warnings = told.iter().map(ToString::to_string).collect();
     case_folders(&scene)?;
     check(&scene)?;
     for case in &scene.cases {
-        check_case(&scene, case)?;
+        checked.warnings.extend(check_case(&scene, case)?);
     }
-    let elsewhere: Vec<&str> = scene
-        .subsystems
-        .iter()
-        .filter(|subsystem| subsystem.served != Served::BuiltIn)
-        .map(|subsystem| subsystem.name.as_str())
-        .collect();
-    if elsewhere.is_empty() {
-        return print(format_args!("{}: ok\n", arguments.scene.scene.display()));
-    }
-    print(format_args!(
-        "{}: ok as far as it can be told without the workers of {}; their models and parameters, and the joints, were \
-         not checked\n",
-        arguments.scene.scene.display(),
-        elsewhere.join(", ")
-    ))
+    let elsewhere = scene.subsystems.into_iter();
+    let elsewhere = elsewhere.filter(|subsystem| subsystem.served != Served::BuiltIn);
+    checked.unchecked = elsewhere.map(|subsystem| subsystem.name).collect();
+    Ok(checked)
 }
 
-fn check_spectrum(arguments: &SceneArguments) -> Result<(), CommandError> {
+fn check_spectrum(arguments: &SceneArguments) -> Result<Checked, CommandError> {
     let path = &arguments.scene;
     if !arguments.set.is_empty() {
         return Err(CommandError::NoSettings {
@@ -63,11 +177,11 @@ fn check_spectrum(arguments: &SceneArguments) -> Result<(), CommandError> {
         });
     }
     load_spectrum(path)?;
-    print(format_args!("{}: ok\n", path.display()))
+    Ok(Checked::sound(Kind::Spectrum))
 }
 
 /// Checks a study with its scenes and settings.
-fn check_study(arguments: &SceneArguments) -> Result<(), CommandError> {
+fn check_study(arguments: &SceneArguments) -> Result<Checked, CommandError> {
     let path = &arguments.scene;
     if !arguments.set.is_empty() {
         return Err(CommandError::NoSettings {
@@ -76,18 +190,20 @@ fn check_study(arguments: &SceneArguments) -> Result<(), CommandError> {
         });
     }
     Plan::of_study(&load_study(path)?, Depth::Full)?;
-    print(format_args!(
-        "{}: ok as a study; linchpin report runs it\n",
-        path.display()
-    ))
+    Ok(Checked::sound(Kind::Study))
 }
 
-fn check_case(scene: &Scene, case: &Case) -> Result<(), CommandError> {
+/// Checks a case; its warnings go to the error output, and are given.
+fn check_case(scene: &Scene, case: &Case) -> Result<Vec<String>, CommandError> {
     let scene = scene.with_case(case)?;
-    for warning in linchpin_master::scene::warnings(&scene) {
-        warn(format_args!("case \"{}\": {warning}", case.name));
-    }
-    check(&scene).map_err(|error| error.in_case(&case.name))
+    let told = linchpin_master::scene::warnings(&scene);
+    let told = told
+        .iter()
+        .map(|warning| format!("case \"{}\": {warning}", case.name));
+    let told: Vec<String> = told.collect();
+    told.iter().for_each(warn);
+    check(&scene).map_err(|error| error.in_case(&case.name))?;
+    Ok(told)
 }
 
 /// Starts the scene in this process; where other workers would be needed, only what can be told of the built-in models.

@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 use std::fs;
-use std::io::{ErrorKind, IsTerminal, Write};
+use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -11,6 +11,7 @@ use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
 use linchpin_master::scene::{self, Override, Scene, SceneErrors, warnings};
 
 use linchpin_proto::contract::CallError;
+use serde::Serialize;
 
 use super::CommandError;
 use crate::output::OutputFolder;
@@ -228,6 +229,12 @@ pub fn print(text: impl Display) -> Result<(), CommandError> {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(CommandError::Output(error)),
         _ => Ok(()),
     }
+}
+
+/// Writes a document to the standard output as JSON.
+pub fn print_json(document: &impl Serialize) -> Result<(), CommandError> {
+    let text = serde_json::to_string_pretty(document).map_err(io::Error::from);
+    print(text.map_err(CommandError::Output)? + "\n")
 }
 
 /// Writes a warning to the error output; whoever closed it is not told.

@@ -1,20 +1,28 @@
 //! `linchpin describe`: what a worker can simulate.
 
 use linchpin_proto::contract::Contract;
-use linchpin_proto::v1::{self, DescribeReply, Model, Parameter, Variable};
+use linchpin_proto::v1::{self, DescribeReply};
 use linchpin_proto::version::{PROTOCOL, negotiate};
 
+use serde::Serialize;
+
 use super::CommandError;
-use super::common::{WorkerArguments, print};
+use super::common::{WorkerArguments, print, print_json};
+use super::description::{ModelDescription, model_text};
 
 /// Show the models, variables and markers of a running worker
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   linchpin describe http://127.0.0.1:50051
-  linchpin describe unix:/run/linchpin/mass1.sock")]
+  linchpin describe unix:/run/linchpin/mass1.sock
+  linchpin describe http://127.0.0.1:50051 --json")]
 pub struct Arguments {
     #[command(flatten)]
     worker: WorkerArguments,
+
+    /// Print the descriptions as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 /// Asks the worker and prints its answer.
@@ -26,7 +34,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
     };
     let description = worker.describe(&request);
     let description = description.map_err(|source| arguments.worker.failed(source))?;
-    print(text(&description))?;
+    match arguments.json {
+        true => print_json(&document(&description))?,
+        false => print(text(&description))?,
+    }
     negotiate(description.protocol.as_ref()).map_err(|source| CommandError::Incompatible {
         address: arguments.worker.address().to_owned(),
         source,
@@ -40,60 +51,32 @@ fn text(description: &DescribeReply) -> String {
         description.worker, description.worker_version, protocol.major, protocol.minor
     );
     for model in &description.models {
+        text += "\n";
         text += &model_text(model);
     }
     text
 }
 
-fn model_text(model: &Model) -> String {
-    let mut text = format!("\nmodel {}: {}\n", model.name, model.description);
-    for (heading, variables) in [("inputs", &model.inputs), ("outputs", &model.outputs)] {
-        text += &format!("  {heading}\n");
-        let of_variable =
-            |own: &Variable| line(&own.name, &own.unit, &own.description, own.default);
-        text.extend(variables.iter().map(of_variable));
-    }
-    text += "  parameters\n";
-    let of_parameter = |own: &Parameter| line(&own.name, &own.unit, &own.description, own.default);
-    text.extend(model.parameters.iter().map(of_parameter));
-    text += "  markers\n";
-    for marker in &model.markers {
-        let motion = [&marker.position, &marker.velocity, &marker.acceleration];
-        let motion: Vec<&str> = motion.into_iter().flatten().map(String::as_str).collect();
-        text += &format!(
-            "    {:<20} motion {}, load {}\n",
-            marker.name,
-            motion.join(", "),
-            marker.load.join(", ")
-        );
-    }
-    text += "  solvers\n";
-    for solver in &model.solvers {
-        text += &format!("    {:<20} {}\n", solver.name, solver.description);
-        text.extend(solver.options.iter().map(of_parameter));
-    }
-    let capabilities = model.capabilities.unwrap_or_default();
-    text += &format!(
-        "  exchange stream {}, perturbed steps repeat the step sequence {}, exportable snapshots {}, \
-         directional derivatives {}, outputs inside a step {}, \
-         integrals of outputs {}\n",
-        yes(capabilities.exchange),
-        yes(capabilities.repeats_step_sequence),
-        yes(capabilities.exportable_snapshot),
-        yes(capabilities.directional_derivatives),
-        yes(capabilities.interior_outputs),
-        yes(capabilities.output_integrals)
-    );
-    text
+/// What a worker describes, as JSON.
+#[derive(Serialize)]
+struct Document<'a> {
+    worker: &'a str,
+    version: &'a str,
+    /// Of the contract: `MAJOR.MINOR`.
+    protocol: String,
+    models: Vec<ModelDescription>,
 }
 
-fn line(name: &str, unit: &str, description: &str, default: Option<f64>) -> String {
-    let default = default
-        .map(|value| format!(", default {value}"))
-        .unwrap_or_default();
-    format!("    {name:<20} {unit:<8} {description}{default}\n")
-}
-
-fn yes(value: bool) -> &'static str {
-    if value { "yes" } else { "no" }
+fn document(description: &DescribeReply) -> Document<'_> {
+    let protocol = description.protocol.unwrap_or_default();
+    Document {
+        worker: &description.worker,
+        version: &description.worker_version,
+        protocol: format!("{}.{}", protocol.major, protocol.minor),
+        models: description
+            .models
+            .iter()
+            .map(ModelDescription::of)
+            .collect(),
+    }
 }

@@ -5,14 +5,17 @@ use std::path::{Path, PathBuf};
 use linchpin_master::RunError;
 use linchpin_master::connection::{CONTRACT, StartError};
 use linchpin_master::scene::{Coupling, SceneErrors};
+use linchpin_proto::contract::CallError;
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
+use crate::comparison::ComparisonError;
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
 use crate::output::checkpoint::ResumeError;
 use crate::output::part::PartError;
 use crate::plot::PlotError;
+use crate::results::ReadError;
 use crate::simulate::SimulateError;
 use crate::spectra::FailedCurve;
 use crate::study::StudyError;
@@ -98,6 +101,90 @@ pub enum CommandError {
         tasks: usize,
         /// What it is, in the plural.
         unit: &'static str,
+    },
+    /// Results cannot be read back.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// Runs cannot be compared.
+    #[error(transparent)]
+    Comparison(#[from] ComparisonError),
+    /// Runs differ; the comparison is out.
+    #[error("the runs differ: {differences} columns, cases or time spans")]
+    Different {
+        /// How many of them.
+        differences: usize,
+    },
+    /// A file that a template would write is there.
+    #[error("{} is there already, and nothing was written; choose another folder", path.display())]
+    FileThere {
+        /// The file.
+        path: PathBuf,
+    },
+    /// No clone of the repository.
+    #[error(
+        "{} is no clone of Linchpin, which a Rust worker is built with; give one with --source CLONE",
+        path.display()
+    )]
+    NoClone {
+        /// Where one was looked for.
+        path: PathBuf,
+    },
+    /// No built-in model has this name.
+    #[error("there is no built-in model {name:?}; there are: {names}")]
+    NoModel {
+        /// The name.
+        name: String,
+        /// Those that there are.
+        names: String,
+    },
+    /// A built-in model has no parameter of this name.
+    #[error("the model {model} has no parameter {name:?}; it has: {names}")]
+    NoParameter {
+        /// Name of the model.
+        model: String,
+        /// What was given.
+        name: String,
+        /// The parameters that it has.
+        names: String,
+    },
+    /// A built-in model refuses its parameters.
+    #[error("no description: {0}")]
+    Models(CallError),
+    /// No column of the results is meant.
+    #[error(
+        "no column of {} matches {pattern:?}; there are: {columns}; linchpin plot {} --list says what they show",
+        folder.display(), folder.display()
+    )]
+    NoColumn {
+        /// The folder of results.
+        folder: PathBuf,
+        /// What was asked for.
+        pattern: String,
+        /// Names of the columns, or the first of them.
+        columns: String,
+    },
+    /// A time range that ends before it begins.
+    #[error(
+        "--from {from} is not before --to {to}; give a range of times in s, such as --from 0.2 --to 0.5"
+    )]
+    EmptyRange {
+        /// Its start (s).
+        from: f64,
+        /// Its end (s).
+        to: f64,
+    },
+    /// A choice of columns and times without a point.
+    #[error(
+        "nothing to draw of {}: no row from t = {from} s to {to} s has a finite value of the chosen columns",
+        folder.display()
+    )]
+    NothingToDraw {
+        /// The folder of results.
+        folder: PathBuf,
+        /// Start of the range (s).
+        from: f64,
+        /// Its end (s).
+        to: f64,
     },
     /// A study has no result.
     #[error(transparent)]
@@ -244,6 +331,16 @@ impl CommandError {
             | Self::TooManyParts { .. }
             | Self::NoScene { .. }
             | Self::NoSettings { .. }
+            | Self::Read(_)
+            | Self::FileThere { .. }
+            | Self::NoClone { .. }
+            | Self::NoModel { .. }
+            | Self::Models(_)
+            | Self::NoParameter { .. }
+            | Self::Comparison(_)
+            | Self::NoColumn { .. }
+            | Self::EmptyRange { .. }
+            | Self::NothingToDraw { .. }
             | Self::StudyAmongOthers { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,

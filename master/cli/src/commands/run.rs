@@ -6,15 +6,17 @@ use linchpin_master::Interrupt;
 use linchpin_master::scene::{Case, Scene};
 use linchpin_master::setup::Options;
 use serde::Serialize;
+use serde_json::Value;
 
 use super::CommandError;
-use super::common::{OutputArguments, SceneArguments, case_folders, print, warn};
+use super::common::{OutputArguments, SceneArguments, case_folders, print, print_json, warn};
 use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
 use crate::output::checkpoint::{CheckpointFile, RunIdentity, has_checkpoint, remove_checkpoints};
 use crate::output::{Ending, OutputFolder, Program, StatusFile};
-use crate::results::{About, RunRecorder, RunReport, draw};
+use crate::plot::Format;
+use crate::results::{About, Recorded, RunRecorder, RunReport, Target, draw};
 use crate::simulate::simulate;
 
 /// Run a scene; starts the workers it needs and writes results and plots
@@ -25,6 +27,7 @@ use crate::simulate::simulate;
   linchpin run scenes/oscillator.toml --in-process --quiet
   linchpin run scenes/double-pendulum.toml --animate
   linchpin run scenes/double-pendulum.toml --resume         after its process was ended
+  linchpin run scenes/oscillator.toml --json | jq .statistics.macro_steps
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
 DIR/results.svg and DIR/results.png. A scene with cases runs them one after the other, each in a folder of its own, and
@@ -55,12 +58,21 @@ pub struct Arguments {
     #[arg(long)]
     no_plots: bool,
 
+    /// Print how the run ended as JSON, in place of the summary: what run.json says, with the folder
+    #[arg(long)]
+    json: bool,
+
     /// Write animation.html, which shows the moving markers and contacts; what it needs becomes columns of results.csv
     #[arg(long)]
     animate: bool,
 }
 
 impl Arguments {
+    /// Whether the summary stays away.
+    fn is_quiet(&self) -> bool {
+        self.output.quiet || self.json
+    }
+
     fn place(&self) -> Place {
         match (self.in_process, self.threads) {
             (false, _) => Place::Processes,
@@ -81,13 +93,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
         interrupt: interrupt::on_signals()?,
         pictures: folder.path().join("results"),
     };
-    if scene.cases.is_empty() {
-        let (report, outcome) = job.run(&scene, None, &folder)?;
-        let drawn = job.draw(&scene, &[report]);
-        outcome.and(drawn)?;
-    } else {
-        job.run_cases(&scene, &case_folders, &folder)?;
+    let outcome = job.run_all(&scene, &case_folders, &folder);
+    if arguments.json {
+        let told = job.tell_json(folder.path());
+        return outcome.and(told);
     }
+    outcome?;
     arguments.output.conclude("", folder.path())
 }
 
@@ -115,6 +126,36 @@ struct CaseStatuses {
 }
 
 impl Job<'_> {
+    /// Runs the scene, or its cases, and draws what there is.
+    fn run_all(
+        &self,
+        scene: &Scene,
+        case_folders: &[String],
+        folder: &OutputFolder,
+    ) -> Result<(), CommandError> {
+        if !scene.cases.is_empty() {
+            return self.run_cases(scene, case_folders, folder);
+        }
+        let (report, outcome) = self.run(scene, None, folder)?;
+        let drawn = self.draw(scene, vec![report]);
+        outcome.and(drawn)
+    }
+
+    /// Prints what `run.json` says, if this command has written it, and of cases those that have run.
+    fn tell_json(&self, folder: &Path) -> Result<(), CommandError> {
+        let own = |folder: &Path| Recorded::document_of(folder, self.program.process);
+        let Some(mut document) = own(folder) else {
+            return Ok(());
+        };
+        let cases = document["cases"].as_array().into_iter().flatten();
+        let folders = cases.filter_map(|case| case["folder"].as_str());
+        let runs: Vec<Value> = folders.filter_map(|case| own(&folder.join(case))).collect();
+        if !runs.is_empty() {
+            document["runs"] = runs.into();
+        }
+        print_json(&document)
+    }
+
     /// Runs the cases one after the other up to the first that fails, and draws what there is.
     fn run_cases(
         &self,
@@ -147,7 +188,7 @@ impl Job<'_> {
                 break;
             }
         }
-        let drawn = self.draw(scene, &reports);
+        let drawn = self.draw(scene, reports);
         let outcome = outcome.and(drawn);
         let cases = CaseStatuses { cases: statuses };
         status.end(&Ending::of(&outcome), Some(cases))?;
@@ -205,7 +246,11 @@ impl Job<'_> {
             }
         };
         let has_begun = recorder.has_begun();
-        let (report, status) = recorder.into_report(statistics);
+        let (mut report, status) = recorder.into_report(statistics);
+        if let Some(recording) = &mut report.recording {
+            recording.case = case.map(str::to_owned);
+            recording.reason = outcome.as_ref().err().map(ToString::to_string);
+        }
         let outcome = outcome.and_then(|()| {
             remove_checkpoints(folder.path()).map_err(CommandError::unwritable(folder.path()))?;
             self.tell(scene, case, &report, &page)
@@ -258,18 +303,24 @@ impl Job<'_> {
         for warning in report.warnings() {
             warn(warning);
         }
-        if self.arguments.output.quiet {
+        if self.arguments.is_quiet() {
             return Ok(());
         }
         print(format_args!("{}\n", report.summary(scene, case)))
     }
 
     /// The picture of the runs that have recorded something.
-    fn draw(&self, scene: &Scene, reports: &[RunReport]) -> Result<(), CommandError> {
-        let has_rows = |report: &RunReport| !report.traces.is_empty();
-        if self.arguments.no_plots || !reports.iter().any(has_rows) {
+    fn draw(&self, scene: &Scene, reports: Vec<RunReport>) -> Result<(), CommandError> {
+        let recordings: Vec<_> = { reports.into_iter() }
+            .filter_map(|report| report.recording)
+            .collect();
+        if self.arguments.no_plots || recordings.is_empty() {
             return Ok(());
         }
-        draw(scene, reports, &self.pictures)
+        let target = Target {
+            stem: &self.pictures,
+            formats: &Format::ALL,
+        };
+        draw(&scene.name, &recordings, &target).map(|_| ())
     }
 }

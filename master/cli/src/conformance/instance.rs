@@ -93,6 +93,7 @@ impl<'a> Instance<'a> {
             outputs: v1::OutputSet::Coupling.into(),
             instants: inside.instants.to_vec(),
             integrals: inside.integrals.min(MAX_WEIGHTS) as u32,
+            ..v1::StepRequest::default()
         }
     }
 

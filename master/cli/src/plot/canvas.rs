@@ -60,13 +60,43 @@ impl Surface for BitMapBackend<'_> {
     }
 }
 
+/// Kinds of files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// `STEM.svg`
+    Svg,
+    /// `STEM.png`
+    Png,
+}
+
+impl Format {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Svg, Self::Png];
+
+    /// Ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+}
+
 /// Something that can be drawn.
 pub trait Chart {
     /// Writes `STEM.svg` and `STEM.png`.
     ///
     /// # Errors
     /// [`PlotError`]: data that do not fit together, too many panels, no point to draw, unwritable path.
-    fn write(&self, stem: &Path) -> Result<(), PlotError>;
+    fn write(&self, stem: &Path) -> Result<(), PlotError> {
+        self.write_as(stem, &Format::ALL).map(|_| ())
+    }
+
+    /// Writes files of these kinds beside each other; their paths.
+    ///
+    /// # Errors
+    /// As for [`Chart::write`].
+    fn write_as(&self, stem: &Path, formats: &[Format]) -> Result<Vec<PathBuf>, PlotError>;
 
     /// The same picture as the text of an SVG, for a page; `name` is its name in errors.
     ///
@@ -76,10 +106,13 @@ pub trait Chart {
 }
 
 impl<T: Pictured> Chart for T {
-    fn write(&self, stem: &Path) -> Result<(), PlotError> {
+    fn write_as(&self, stem: &Path, formats: &[Format]) -> Result<Vec<PathBuf>, PlotError> {
         let picture = decided(self, stem)?;
-        write_svg(&picture, stem)?;
-        write_png(&picture, stem)
+        let write = |format: &Format| match format {
+            Format::Svg => write_svg(&picture, stem),
+            Format::Png => write_png(&picture, stem),
+        };
+        formats.iter().map(write).collect()
     }
 
     fn svg(&self, name: &str) -> Result<String, PlotError> {
@@ -118,9 +151,10 @@ fn embed_font() -> Result<(), PlotError> {
     readable.then_some(()).ok_or(PlotError::Font)
 }
 
-fn with_ending(stem: &Path, ending: &str) -> PathBuf {
+fn with_ending(stem: &Path, format: Format) -> PathBuf {
     let mut path = OsString::from(stem);
-    path.push(ending);
+    path.push(".");
+    path.push(format.ending());
     path.into()
 }
 
@@ -140,10 +174,12 @@ fn paint<DB: Surface>(picture: &impl Picture, backend: DB, stem: &Path) -> Resul
         .map_err(|error| PlotError::drawing(stem, &error))
 }
 
-fn write_svg(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
-    let path = with_ending(stem, ".svg");
-    std::fs::write(&path, svg(picture, stem)?)
-        .map_err(|source| PlotError::WriteSvg { path, source })
+fn write_svg(picture: &impl Picture, stem: &Path) -> Result<PathBuf, PlotError> {
+    let path = with_ending(stem, Format::Svg);
+    match std::fs::write(&path, svg(picture, stem)?) {
+        Ok(()) => Ok(path),
+        Err(source) => Err(PlotError::WriteSvg { path, source }),
+    }
 }
 
 fn svg(picture: &impl Picture, stem: &Path) -> Result<String, PlotError> {
@@ -173,7 +209,7 @@ fn in_pixels(drawing: &str, picture: &impl Picture) -> String {
         .replace(r#" opacity="1""#, "")
 }
 
-fn write_png(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
+fn write_png(picture: &impl Picture, stem: &Path) -> Result<PathBuf, PlotError> {
     let fine_size = fine_size(picture);
     let mut fine = vec![0; fine_size.0 as usize * fine_size.1 as usize * CHANNELS];
     paint(
@@ -181,17 +217,20 @@ fn write_png(picture: &impl Picture, stem: &Path) -> Result<(), PlotError> {
         BitMapBackend::with_buffer(&mut fine, fine_size),
         stem,
     )?;
-    let path = with_ending(stem, ".png");
+    let path = with_ending(stem, Format::Png);
     let mut file = BitMapBackend::new(&path, picture.size());
     let pixels = averaged(&fine, fine_size.0 as usize);
     let written = file
         .blit_bitmap((0, 0), picture.size(), &pixels)
         .and_then(|()| file.present());
     drop(file);
-    written.map_err(|source| PlotError::WritePng {
-        path,
-        source: source.into(),
-    })
+    match written {
+        Ok(()) => Ok(path),
+        Err(source) => Err(PlotError::WritePng {
+            path,
+            source: source.into(),
+        }),
+    }
 }
 
 /// One pixel for each square of drawing units: plotters does not smooth slanted edges.

@@ -37,7 +37,11 @@ const MARKER_RADIUS: f64 = 6.0;
 impl Legend {
     /// Breaks the entries into rows as wide as a picture.
     pub(super) fn new(entries: impl IntoIterator<Item = (Key, String)>) -> Self {
-        let width = units(PICTURE_WIDTH);
+        Self::within(units(PICTURE_WIDTH), entries)
+    }
+
+    /// The same with rows of another width, in drawing units.
+    pub(super) fn within(width: i32, entries: impl IntoIterator<Item = (Key, String)>) -> Self {
         let mut rows: Vec<Vec<Entry>> = Vec::new();
         let mut free = 0;
         for (key, name) in entries {

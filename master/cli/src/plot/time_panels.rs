@@ -32,7 +32,7 @@ pub struct TimePanels {
     /// Panels with x axes of their own, one or two in a row.
     pub portraits: Vec<Portrait>,
     /// Marked times, in all panels over the time.
-    pub marks: TimeMarks,
+    pub marks: Vec<TimeMarks>,
 }
 
 /// One panel of [`TimePanels`].
@@ -54,10 +54,10 @@ impl Pictured for TimePanels {
     }
 }
 
-const TITLE_HEIGHT: f64 = 42.0;
+pub(super) const TITLE_HEIGHT: f64 = 42.0;
 const PANEL_HEIGHT: f64 = 250.0;
 const HIGHEST_PANEL: f64 = 560.0;
-const Y_MARGIN: f64 = 0.06;
+pub(super) const Y_MARGIN: f64 = 0.06;
 
 /// Pixel columns that a series is thinned out to, fewer when many series share the picture.
 const COLUMNS: usize = 1000;
@@ -67,7 +67,7 @@ fn all_series(plot: &TimePanels) -> impl Iterator<Item = &Curve> {
     plot.panels.iter().flat_map(|panel| &panel.series)
 }
 
-fn check_times(series: &Curve) -> Result<(), PlotError> {
+pub(super) fn check_times(series: &Curve) -> Result<(), PlotError> {
     let points = &series.points;
     match points.windows(2).position(|pair| pair[1].0 < pair[0].0) {
         None => Ok(()),
@@ -122,7 +122,11 @@ impl<'a> Layout<'a> {
         let panels = plot.panels.iter().map(|panel| &panel.series[..]);
         let portraits = plot.portraits.iter().map(|portrait| &portrait.paths[..]);
         let names = names_to_tell_apart(panels.chain(portraits));
-        let marks = times.1.and_then(|_| plot.marks.entry(&time));
+        let marks = times.1.map(|_| plot.marks.iter());
+        let marks = marks
+            .into_iter()
+            .flatten()
+            .filter_map(|own| own.entry(&time));
         let entries = curve_keys(&names, LINE_WIDTH).chain(marks);
         Some(Self {
             plot,
@@ -157,7 +161,10 @@ impl<'a> Layout<'a> {
         if panel.drawable().next().is_none() {
             return inside.note_no_data();
         }
-        self.plot.marks.draw(&inside)?;
+        self.plot
+            .marks
+            .iter()
+            .try_for_each(|own| own.draw(&inside))?;
         let mut series = panel.series.iter();
         series.try_for_each(|series| self.draw_series(&inside, series))
     }
@@ -184,7 +191,7 @@ impl<'a> Layout<'a> {
 }
 
 /// Draws the title over the middle of the area and gives back what is below it.
-fn below_title<DB: Surface>(
+pub(super) fn below_title<DB: Surface>(
     area: &DrawingArea<DB, Shift>,
     title: &str,
 ) -> Drawn<DB, DrawingArea<DB, Shift>> {

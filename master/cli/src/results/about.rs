@@ -1,8 +1,9 @@
 //! What `run.json` says of a run before there are numbers.
 
+use linchpin_master::results::{Column, Quantity, Row};
 use linchpin_master::run::settings::Settings;
-use linchpin_master::scene::{Degree, Method, Scene, StepControl};
-use serde::Serialize;
+use linchpin_master::scene::{Degree, Method, Panel, Scene, StepControl};
+use serde::{Deserialize, Serialize};
 
 use crate::commands::common::SceneArguments;
 
@@ -25,10 +26,14 @@ pub struct About {
     settings: Option<Settings>,
     /// The macro point at which this process went on from a checkpoint; absent if it began at the start.
     pub resumed_at: Option<f64>,
+    /// The panels that the scene asks for; none: those of the quantities.
+    panels: Vec<Panel>,
+    /// By how much pictures show multipliers earlier (s).
+    multiplier_delay: f64,
     /// The model of every subsystem; empty before all workers have answered.
     pub models: Vec<SubsystemModel>,
     /// The columns of the table; empty before its first row.
-    pub columns: Vec<ColumnUnit>,
+    pub columns: Vec<ReportedColumn>,
 }
 
 /// The model of a subsystem.
@@ -41,12 +46,37 @@ pub struct SubsystemModel {
 }
 
 /// A column of the table of results.
-#[derive(Debug, Clone, Serialize)]
-pub struct ColumnUnit {
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReportedColumn {
+    /// What it shows.
+    #[serde(flatten)]
+    pub column: Column,
+    /// Whether the picture shows it, unless it is told what to show.
+    #[serde(default)]
+    pub drawn: bool,
+}
+
+impl ReportedColumn {
     /// Its name.
-    pub name: String,
-    /// Its unit; 1 for numbers without one, empty if a worker does not tell.
-    pub unit: String,
+    pub fn name(&self) -> &str {
+        &self.column.name
+    }
+
+    /// What kind of number it is.
+    pub fn quantity(&self) -> Quantity {
+        self.column.quantity
+    }
+
+    /// The columns of a row, of which the picture shows the usual ones and those that the scene asks for.
+    pub fn of_row(row: &Row, scene: &Scene) -> Vec<Self> {
+        let asked = scene.output.variables.as_deref().unwrap_or_default();
+        let columns = row.descriptions().iter().enumerate();
+        let reported = columns.map(|(place, column)| Self {
+            drawn: row.is_drawn(place) || asked.contains(&column.name),
+            column: column.clone(),
+        });
+        reported.collect()
+    }
 }
 
 impl About {
@@ -67,9 +97,20 @@ impl About {
             method: scene.coupling.method,
             settings: settings(scene),
             resumed_at: None,
+            panels: scene.output.panels.clone(),
+            multiplier_delay: multiplier_delay(scene),
             models: Vec::new(),
             columns: Vec::new(),
         }
+    }
+}
+
+/// With `k = 0` a corrected multiplier is the mean over its step, so it belongs to the middle of the step.
+pub(super) fn multiplier_delay(scene: &Scene) -> f64 {
+    if scene.coupling.multipliers_are_step_means() {
+        scene.coupling.macro_step / 2.0
+    } else {
+        0.0
     }
 }
 
@@ -80,4 +121,23 @@ fn settings(scene: &Scene) -> Option<Settings> {
     let follow = coupling.has_automatic_degree();
     let corrects = coupling.method.corrects();
     corrects.then(|| Settings::new(varies, follow))
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A column that is drawn.
+    pub fn column(name: &str, unit: &str, quantity: Quantity) -> ReportedColumn {
+        ReportedColumn {
+            column: Column {
+                name: name.into(),
+                unit: unit.into(),
+                description: String::new(),
+                quantity,
+                marker: None,
+            },
+            drawn: true,
+        }
+    }
 }

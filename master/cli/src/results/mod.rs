@@ -1,19 +1,25 @@
-//! What a run leaves behind: table, report, picture.
+//! What a run leaves behind: table, report, picture; and what is read back of them.
 
 mod about;
 mod checkpoints;
 mod figure;
-mod impacts;
+mod panels;
+mod recorded;
 mod recorder;
+mod recording;
 mod report;
 mod table;
 mod thinned;
+mod times;
 mod trace;
 
-pub use about::About;
-pub use figure::draw;
-pub use impacts::Impacts;
+pub use about::{About, ReportedColumn};
+pub use figure::{Target, draw};
+pub use panels::Shown;
+pub use recorded::{ReadError, Recorded};
 pub use recorder::RunRecorder;
+pub use recording::{ChosenBy, Plan, Recording};
 pub use report::RunReport;
 pub use thinned::Thinned;
+pub use times::{Impacts, Rejections};
 pub use trace::Trace;

@@ -13,11 +13,11 @@ use linchpin_master::run::checkpoint::Checkpoint;
 use linchpin_master::scene::Scene;
 use linchpin_master::workers::Subsystem;
 
-use super::about::{About, ColumnUnit, SubsystemModel};
+use super::about::{About, ReportedColumn, SubsystemModel, multiplier_delay};
 use super::checkpoints::Checkpoints;
-use super::figure::traces;
+use super::recorded::TABLE;
 use super::table::Table;
-use super::{Impacts, RunReport, Trace};
+use super::{Plan, Recording, RunReport};
 use crate::animation::Motion;
 use crate::closed_form::ClosedForm;
 use crate::commands::CommandError;
@@ -39,8 +39,7 @@ pub struct RunRecorder {
     statistics: Option<Statistics>,
     errors: Option<ErrorMeter>,
     scene: Scene,
-    traces: Vec<Trace>,
-    impacts: Option<Impacts>,
+    recording: Option<Recording>,
     motion: Option<Motion>,
     checkpoints: Checkpoints,
     /// Where the run goes on.
@@ -48,9 +47,6 @@ pub struct RunRecorder {
     bar: ProgressBar,
     started: Instant,
 }
-
-/// The table of results.
-const TABLE: &str = "results.csv";
 
 /// The progress bar.
 const BAR: &str = "{bar:30} {percent:>3} %  t = {msg}  {eta} left";
@@ -86,8 +82,7 @@ impl RunRecorder {
             statistics: None,
             errors: None,
             scene: scene.clone(),
-            traces: Vec::new(),
-            impacts: None,
+            recording: None,
             motion: None,
             checkpoints: Checkpoints::new(folder.to_owned(), run, &scene.run),
             resumed,
@@ -120,8 +115,7 @@ impl RunRecorder {
         let report = RunReport {
             statistics: statistics.or(self.statistics),
             errors: self.errors,
-            traces: self.traces,
-            impacts: self.impacts,
+            recording: self.recording,
             motion: self.motion,
             wall_time: self.started.elapsed().as_secs_f64(),
         };
@@ -132,12 +126,6 @@ impl RunRecorder {
         for path in &self.stale {
             remove_stale(path)?;
         }
-        let columns = row.columns().iter().zip(row.units());
-        let columns = columns.map(|(name, unit)| ColumnUnit {
-            name: name.clone(),
-            unit: unit.clone(),
-        });
-        self.status.about.columns = columns.collect();
         // The file of an earlier run says how that ended, which is not so for the table that is begun.
         self.status.about.resumed_at = self.resumed.as_ref().map(|resumed| resumed.t);
         self.status.running()?;
@@ -157,11 +145,8 @@ impl RunRecorder {
 
     /// Takes the values of a row for all but the table.
     fn remember(&mut self, values: &[f64]) {
-        for trace in &mut self.traces {
-            trace.record(values);
-        }
-        if let Some(impacts) = &mut self.impacts {
-            impacts.record(values);
+        if let Some(recording) = &mut self.recording {
+            recording.record(values);
         }
         if let Some(errors) = &mut self.errors {
             errors.add(values);
@@ -181,8 +166,15 @@ impl Recorder for RunRecorder {
     }
 
     fn begin(&mut self, row: &Row) -> Result<(), CommandError> {
-        self.traces = traces(&self.scene, row);
-        self.impacts = Some(Impacts::of(&self.scene, row));
+        let columns = ReportedColumn::of_row(row, &self.scene);
+        self.recording = Some(Recording::new(&Plan {
+            span: (self.scene.t_start, self.scene.t_end),
+            multiplier_delay: multiplier_delay(&self.scene),
+            panels: &self.scene.output.panels,
+            columns: &columns,
+            chosen: None,
+        }));
+        self.status.about.columns = columns;
         let closed_form = ClosedForm::of(&self.scene);
         self.errors = closed_form.map(|closed_form| ErrorMeter::new(closed_form, row));
         self.open_table(row)

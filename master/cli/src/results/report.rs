@@ -1,6 +1,7 @@
 //! The report of a run: a summary to read and `run.json` to process.
 
 mod contacts;
+mod worst;
 
 use std::fmt::Write;
 
@@ -8,9 +9,10 @@ use linchpin_master::results::{DegreeStatistics, MomentsOf, Statistics, StepStat
 use linchpin_master::scene::Scene;
 use serde::Serialize;
 
-use super::{Impacts, Trace};
+use super::Recording;
 use crate::animation::Motion;
 use crate::error_norm::{ColumnError, ErrorMeter};
+use worst::{Worst, write_more, write_residuals};
 
 /// What a run tells.
 pub struct RunReport {
@@ -18,10 +20,8 @@ pub struct RunReport {
     pub statistics: Option<Statistics>,
     /// Errors against the closed form, if the scene has one.
     pub errors: Option<ErrorMeter>,
-    /// Series for the picture.
-    pub traces: Vec<Trace>,
-    /// Impacts inside subsystems; absent before the first row.
-    pub impacts: Option<Impacts>,
+    /// Series and marks for the picture; absent before the first row.
+    pub recording: Option<Recording>,
     /// Positions of the markers, if they were asked for.
     pub motion: Option<Motion>,
     /// Time of the whole run in s.
@@ -90,7 +90,9 @@ impl RunReport {
             "{}{case}: reached t = {t_end} s in {:.3} s ({speed:.3} x real time)",
             scene.name, self.wall_time
         )?;
-        for (column, error) in self.errors.iter().flat_map(ErrorMeter::errors) {
+        let errors = self.errors.iter().flat_map(ErrorMeter::errors);
+        let errors = Worst::of(errors, |(_, error)| error.normalised());
+        for (column, error) in errors.shown {
             writeln!(
                 text,
                 "  error of {column:<22} {:>10} relative (rms), {:>10.3e} largest",
@@ -98,7 +100,11 @@ impl RunReport {
                 error.largest()
             )?;
         }
-        for velocity in &statistics.free_velocities {
+        write_more(errors.more, "errors, all smaller", text)?;
+        let velocities = Worst::of(&statistics.free_velocities, |own| {
+            (own.found - own.given).abs()
+        });
+        for velocity in velocities.shown {
             let name = format!("{}.{}", velocity.subsystem, velocity.parameter);
             writeln!(
                 text,
@@ -106,15 +112,8 @@ impl RunReport {
                 velocity.found, velocity.given
             )?;
         }
-        for joint in &statistics.joints {
-            let what = [&joint.part[..], &joint.level[..]].join(" ");
-            let name = format!("{} ({})", joint.joint, what.trim_start());
-            writeln!(
-                text,
-                "  residual of {name:<19} {:>10.3e} largest",
-                joint.largest
-            )?;
-        }
+        write_more(velocities.more, "velocities, all changed by less", text)?;
+        write_residuals(&statistics.joints, text)?;
         let verdicts = &statistics.verdicts;
         writeln!(
             text,
@@ -148,13 +147,19 @@ impl RunReport {
             statistics.integrations, statistics.solver_steps
         )?;
         write_causes(statistics, text)?;
-        for subsystem in &statistics.subsystems {
+        let subsystems = Worst::of(&statistics.subsystems, |own| own.time_in_solver);
+        for subsystem in subsystems.shown {
             writeln!(
                 text,
                 "    {:<20} {} ({:.3} s in its solver)",
                 subsystem.subsystem, subsystem.route, subsystem.time_in_solver
             )?;
         }
+        write_more(
+            subsystems.more,
+            "subsystems, all with less time in their solvers",
+            text,
+        )?;
         contacts::write(scene, statistics, text)?;
         // Steps that vary follow the error, whatever they resolve.
         if statistics.steps.is_none() {
@@ -186,17 +191,21 @@ fn write_moments(moments: &MomentsOf, text: &mut String) -> std::fmt::Result {
 
 /// Subsystems with springs or dampers that act within a macro step.
 fn write_unresolved(statistics: &Statistics, text: &mut String) -> std::fmt::Result {
-    for subsystem in &statistics.subsystems {
-        if let Some(factor) = subsystem.unresolved {
-            writeln!(
-                text,
-                "  not resolved {:<20} its responses over a macro step are off those of inertia by a factor of {factor:.1e} (aliasing): \
-                 choose a smaller coupling.macro_step, or coupling.tolerance",
-                subsystem.subsystem
-            )?;
-        }
+    let subsystems = statistics.subsystems.iter();
+    let unresolved = subsystems.filter_map(|own| Some((&own.subsystem, own.unresolved?)));
+    let unresolved = Worst::of(unresolved, |(_, factor)| *factor);
+    for (subsystem, factor) in unresolved.shown {
+        writeln!(
+            text,
+            "  not resolved {subsystem:<20} its responses over a macro step are off those of inertia by a factor of {factor:.1e} (aliasing): \
+             choose a smaller coupling.macro_step, or coupling.tolerance"
+        )?;
     }
-    Ok(())
+    write_more(
+        unresolved.more,
+        "not resolved, all by smaller factors",
+        text,
+    )
 }
 
 /// What the integrations were for, and how often the corrector had to work twice.
@@ -213,6 +222,13 @@ fn write_causes(statistics: &Statistics, text: &mut String) -> std::fmt::Result 
         causes.corrector,
         causes.samples
     )?;
+    if corrections.steps_with_impacts > 0 {
+        writeln!(
+            text,
+            "    in {} macro steps with impacts that partners took part in: {} more",
+            corrections.steps_with_impacts, causes.impacts
+        )?;
+    }
     if causes.sum() != statistics.integrations {
         writeln!(
             text,

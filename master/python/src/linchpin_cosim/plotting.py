@@ -8,7 +8,7 @@ from typing import Any
 
 from .runs import Run
 
-ASIDE = ("*.residual.*", "error_estimate", "step", "degree", "exchanged_degree")
+ASIDE = ("*.residual.*", "error_estimate", "step", "degree", "exchanged_degree", "rejected")
 """Columns that tell of the coupling and not of the motion; drawn only where they are asked for."""
 
 WIDTH, HEIGHT = 7.0, 1.8

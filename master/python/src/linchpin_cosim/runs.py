@@ -63,6 +63,11 @@ class Run:
         return {column["name"]: column["unit"] for column in self.info["columns"]}
 
     @property
+    def descriptions(self) -> dict[str, str]:
+        """What every column shows, in words, `t` included; empty where a worker does not tell."""
+        return {column["name"]: column["description"] for column in self.info["columns"]}
+
+    @property
     def statistics(self) -> Mapping[str, Any]:
         """Counts, times and largest residuals; of a failed run, up to where it stopped."""
         return self.info.get("statistics") or {}
@@ -113,4 +118,5 @@ def _results(file: Path, info: Mapping[str, Any]) -> pd.DataFrame:
         table = pd.DataFrame({name: pd.Series(dtype=float) for name in units or ("t",)})
     table = table.set_index("t")
     table.attrs["units"] = {name: units.get(name, "1") for name in ("t", *table.columns)}
+    table.attrs["descriptions"] = {column["name"]: column["description"] for column in info["columns"]}
     return table

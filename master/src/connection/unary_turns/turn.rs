@@ -1,7 +1,7 @@
 //! One exchange as unary calls.
 
 use linchpin_proto::contract::{CallError, Contract};
-use linchpin_proto::exchange::{check_evaluation, check_samples};
+use linchpin_proto::exchange::{check_evaluation, check_samples, is_until};
 use linchpin_proto::v1::*;
 
 use super::place::Place;
@@ -21,6 +21,7 @@ struct Ahead {
     outputs: Option<Outputs>,
     perturbed: Vec<Outputs>,
     derivatives: Vec<Outputs>,
+    impacts: Option<Impacts>,
 }
 
 impl<'a, C: Contract> Turn<'a, C> {
@@ -95,6 +96,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             step: length,
             signals: advance.signals.clone(),
             outputs: OutputSet::All.into(),
+            impacts: advance.impacts.clone(),
             ..StepRequest::default()
         };
         let whole = StepRequest {
@@ -102,12 +104,19 @@ impl<'a, C: Contract> Turn<'a, C> {
             integrals: advance.integrals,
             ..step(advance.step)
         };
-        reply.advanced = self.step_from(start, whole)?;
+        reply.advanced = self.step_from(start, whole)?.outputs;
         self.contacts = self.work.contacts;
         let reached = self.snapshot()?;
         self.place.reach(reached);
         for &sample in &advance.samples {
-            let outputs = self.step_from(start, step(sample))?;
+            let mut shorter = step(sample);
+            if let Some(Impacts { impacts }) = &mut shorter.impacts {
+                impacts.retain(|impact| is_until(impact.at, sample));
+                for impact in impacts {
+                    impact.at = impact.at.min(sample);
+                }
+            }
+            let outputs = self.step_from(start, shorter)?.outputs;
             reply.samples.push(outputs.unwrap_or_default());
         }
         Ok(reached)
@@ -135,6 +144,7 @@ impl<'a, C: Contract> Turn<'a, C> {
             reply.predicted = predicted.outputs;
             reply.perturbed = predicted.perturbed;
             reply.derivatives = predicted.derivatives;
+            reply.impacts = predicted.impacts;
         }
         Ok(())
     }
@@ -147,10 +157,14 @@ impl<'a, C: Contract> Turn<'a, C> {
             outputs: OutputSet::Coupling.into(),
             instants: predict.instants.clone(),
             integrals: predict.integrals,
+            impacts: predict.impacts.clone(),
+            interface: predict.interface.clone(),
             ..StepRequest::default()
         };
+        let answer = self.step_from(base, step)?;
         let mut ahead = Ahead {
-            outputs: self.step_from(base, step)?,
+            outputs: answer.outputs,
+            impacts: answer.impacts,
             ..Ahead::default()
         };
         if predict.perturbed.is_empty() && predict.directions.is_empty() {
@@ -167,6 +181,8 @@ impl<'a, C: Contract> Turn<'a, C> {
             directions: predict.directions.clone(),
             instants: predict.instants.clone(),
             integrals: predict.integrals,
+            impacts: predict.impacts.clone(),
+            interface: predict.interface.clone(),
         })?;
         self.count(answer.work);
         ahead.perturbed = answer.outputs;
@@ -202,18 +218,14 @@ impl<'a, C: Contract> Turn<'a, C> {
         Ok(ahead)
     }
 
-    fn step_from(
-        &mut self,
-        start: u64,
-        mut request: StepRequest,
-    ) -> Result<Option<Outputs>, CallError> {
+    fn step_from(&mut self, start: u64, mut request: StepRequest) -> Result<StepReply, CallError> {
         self.go_to(start)?;
         request.instance = self.place.instance;
         request.sequence = self.place.next();
         self.place.stands_at = None;
         let answer = self.calls.step(&request)?;
         self.count(answer.work);
-        Ok(answer.outputs)
+        Ok(answer)
     }
 
     /// Keeps the state that the instance has.

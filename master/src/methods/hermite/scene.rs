@@ -161,6 +161,10 @@ impl Parameters for Hermite {
         true
     }
 
+    fn forgets_loads(&self) -> bool {
+        self.variant.starts_anew()
+    }
+
     fn own_curves(&self) -> Option<OwnCurves> {
         Some(OwnCurves {
             multipliers: self.degree,

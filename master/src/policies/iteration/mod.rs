@@ -83,7 +83,23 @@ impl IterationControl {
 
     /// Whether new columns have to come with the next look-ahead, whatever others are at hand.
     pub fn needs_new_columns(&self) -> bool {
-        self.rule == Jacobian::EveryStep || self.state.is_slow
+        self.rule == Jacobian::EveryStep || self.state.is_slow || self.state.is_struck
+    }
+
+    /// The look-ahead over the present step has brought new columns after all, because of an impact within it.
+    pub fn bring_columns(&mut self) {
+        self.state.come_next = true;
+        self.state.off_by_length = None;
+    }
+
+    /// The step that was accepted has had an impact: behind it contacts are others, and columns as well.
+    pub fn pass_impact(&mut self) {
+        self.state.is_struck = true;
+    }
+
+    /// Whether the scene says how often steps are corrected.
+    pub fn has_rule(&self) -> bool {
+        self.iterations.is_some()
     }
 
     /// Decides whether the look-ahead over the `following` step brings new columns, where those that were `found` may be wrong by this
@@ -97,6 +113,7 @@ impl IterationControl {
         state.come_next = state.off_by_length.is_none();
         if state.come_next && self.rule != Jacobian::EveryStep {
             let because = match found {
+                _ if state.is_struck => "contacts are others behind an impact",
                 _ if state.is_slow => "corrections converge slowly",
                 Some(_) => "steps keep a length without columns of its own",
                 None => "no columns at hand serve",
@@ -304,6 +321,7 @@ impl IterationControl {
         let calm = state.first_of_size.max(self.settings.least_calm);
         state.calm = calm.min(self.settings.memory * state.calm);
         state.is_slow = state.rate.is_some_and(|rate| rate > slow);
+        state.is_struck = false;
         let is_borrowed = state.off_by_length.is_some_and(|off| off > 0.0);
         let before = if step.length == state.length {
             state.borrowed

@@ -27,6 +27,8 @@ pub struct State {
     pub(super) off_by_length: Option<f64>,
     /// Whether corrections converged too slowly when the last step was taken.
     pub(super) is_slow: bool,
+    /// Whether there was an impact in it.
+    pub(super) is_struck: bool,
     /// Length of that step in s.
     pub(super) length: f64,
     /// Macro steps of this length in a row that needed passes with columns of other lengths.

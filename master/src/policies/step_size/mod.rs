@@ -155,8 +155,20 @@ impl StepSize {
         self.varies() && estimate.scaled > 1.0 && is_shortest && is_of_exchanged
     }
 
-    /// Takes a step in which an exchanged variable jumps; the length of the next one in s. What the errors were before says nothing about it.
+    /// Whether a step with an impact, which was `longest` (s) at the first attempt, may become shorter.
+    pub fn may_follow_impact(&self, step: MacroStep, longest: f64) -> bool {
+        let least = (SETTINGS.least_of_impact * longest).max(self.control.least_step);
+        step.length > least * (1.0 + SETTINGS.rounding)
+    }
+
+    /// Takes a step in which an exchanged variable jumps; the length of the next one in s.
     pub fn pass_jump(&mut self, step: MacroStep) -> f64 {
+        self.state.statistics.jumps += 1;
+        self.pass_break(step)
+    }
+
+    /// Takes a step with a jump or an impact; the length of the next one in s. What the errors were before says nothing about it.
+    pub fn pass_break(&mut self, step: MacroStep) -> f64 {
         let state = &mut self.state;
         let longest = state
             .statistics
@@ -164,13 +176,12 @@ impl StepSize {
             .map_or(self.first, |step| step.length);
         (state.before, state.is_repeated) = (1.0, false);
         (state.rejected, state.careful) = (None, None);
-        state.statistics.jumps += 1;
         state.statistics.accept(step);
         let next = self.allowed(SETTINGS.most_shrinking * longest);
         tracing::debug!(
             H = step.length,
             next_H = next,
-            "an exchanged variable has jumped"
+            "an exchanged variable or a velocity has jumped"
         );
         next
     }

@@ -39,6 +39,9 @@ pub struct Settings {
     pub diverged: f64,
     /// Share of a step that a worker could not take: nothing tells how much too long it was.
     pub failed: f64,
+    /// A step with an impact is shortened for its error down to this share of what it was at the first attempt. Smaller reaches lengths at
+    /// which the responses of the workers are rounding; larger leaves more of what the loads of the step miss of its jump.
+    pub least_of_impact: f64,
     /// Accepted steps after a failure that stay below the length that failed: the error says nothing of failures.
     pub careful_steps: u32,
 }
@@ -58,6 +61,7 @@ pub(crate) const SETTINGS: Settings = Settings {
     lengths_per_octave: 16.0,
     least_error: 1e-4,
     diverged: 0.5,
+    least_of_impact: 1.0 / 128.0,
     failed: 0.25,
     careful_steps: 20,
 };

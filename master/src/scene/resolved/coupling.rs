@@ -20,6 +20,8 @@ pub struct Coupling {
     pub exchanged_degree: Degree,
     /// Who evaluates loads whose direction turns with the bodies. Default automatic.
     pub loads: Loads,
+    /// What crosses the joints of subsystems with impacts. Default impulses.
+    pub impacts: ImpactsAtJoints,
     /// Macro step H in s, greater than 0 and at most the simulated time; the first one if the steps vary.
     pub macro_step: f64,
     /// Present if the macro step varies with the error.
@@ -37,6 +39,15 @@ impl Coupling {
     pub fn has_automatic_degree(&self) -> bool {
         [self.degree, self.exchanged_degree].contains(&Degree::Automatic)
     }
+}
+
+/// What crosses the joints of a subsystem with impacts at their instants.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ImpactsAtJoints {
+    /// Impulses: partners take part in the impact.
+    Impulses,
+    /// Forces alone: partners feel an impact by what it makes of the loads of the macro step.
+    Forces,
 }
 
 /// Who evaluates a load whose direction turns with the bodies.

@@ -203,6 +203,29 @@ impl Subsystem {
         }
     }
 
+    /// That there is an impulse for each multiplier of its joints, all finite.
+    pub(crate) fn check_impulses(
+        &self,
+        impulses: &[f64],
+        expected: usize,
+        step: MacroStep,
+    ) -> Result<(), RunError> {
+        if impulses.len() != expected {
+            let what = "impulses of multipliers in an impact";
+            return Err(self.wrong_count(what, impulses.len(), expected, step));
+        }
+        match impulses.iter().find(|impulse| !impulse.is_finite()) {
+            None => Ok(()),
+            Some(impulse) => Err(RunError::NotFinite {
+                subsystem: self.name.clone(),
+                variable: "the impulse of a multiplier".to_owned(),
+                value: *impulse,
+                t: step.start,
+                step: step.length,
+            }),
+        }
+    }
+
     fn name_of(&self, names: &[String], integrals: usize, place: usize) -> String {
         if let Some(name) = names.get(place) {
             return name.clone();

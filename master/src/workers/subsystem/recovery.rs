@@ -126,7 +126,9 @@ impl Subsystem {
             self.recovery.settings.attempts = 0;
             return;
         }
-        if !self.recovery.exports || self.recovery.journal.steps() < self.recovery.settings.export_every {
+        if !self.recovery.exports
+            || self.recovery.journal.steps() < self.recovery.settings.export_every
+        {
             return;
         }
         match self.export() {

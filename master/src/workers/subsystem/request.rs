@@ -19,6 +19,11 @@ impl Subsystem {
         }
     }
 
+    /// Another macro step begins: of its impacts nothing is known, and where the subsystem finds them, it is given none to begin with.
+    pub(crate) fn forget_impacts(&mut self) {
+        self.impacts = self.couples_impacts.then(v1::Impacts::default);
+    }
+
     /// The signal of driven input `place` in the advance that was prepared.
     pub(crate) fn advance_signal(&mut self, place: usize) -> &mut v1::Signal {
         let advance = self.request.advance.get_or_insert_default();

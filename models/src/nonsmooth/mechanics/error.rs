@@ -21,6 +21,9 @@ pub enum StepError {
     /// The matrix of a step has no inverse.
     #[error("the effective mass matrix of a step is singular: {0}")]
     Singular(#[from] Singular),
+    /// The joints to other subsystems in an impact.
+    #[error("the joints do not determine the impulses of an impact: {0}")]
+    Joints(Singular),
     /// Forces of contacts were not found.
     #[error("{0}")]
     Contact(#[from] Unsolved),

@@ -11,6 +11,9 @@ impl Integrator {
         }
         put(&self.log.numbers());
         put(&[self.friction_power]);
+        for pending in &self.pending {
+            put(&[f64::from(u8::from(*pending))]);
+        }
     }
 
     /// Takes back the numbers of [`Integrator::memory`]; returns what is behind them.
@@ -28,6 +31,9 @@ impl Integrator {
         if let [power] = take(1) {
             self.friction_power = *power;
         }
+        for pending in &mut self.pending {
+            *pending = take(1) == [1.0];
+        }
         self.state.tau = 0.0;
         numbers
     }
@@ -35,6 +41,6 @@ impl Integrator {
     /// How many numbers [`Integrator::memory`] hands out.
     pub fn memory_len(&self) -> usize {
         let state: usize = self.state.parts().iter().map(|part| part.len()).sum();
-        state + ContactLog::NUMBERS + 1
+        state + ContactLog::NUMBERS + 1 + self.pending.len()
     }
 }

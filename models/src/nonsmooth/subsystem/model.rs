@@ -12,7 +12,7 @@ use super::keys::{Key, Parameters};
 use super::observed::Observer;
 use super::options;
 use super::run::Run;
-use crate::nonsmooth::system::{Contact, MechanicalSystem};
+use crate::nonsmooth::system::{Contact, MechanicalSystem, Side};
 
 /// What a master sees of a system, and its contacts.
 pub type Seen = Result<(Face, Vec<Contact>), SetupError>;
@@ -48,6 +48,8 @@ impl Model for NonsmoothModel {
         let parameters = Parameters::new(self.keys, parameters)?;
         let (face, contacts) = (self.seen)(&parameters)?;
         let outputs = face.outputs(&contacts).into_iter();
+        let mut sides = contacts.iter().map(|contact| contact.side);
+        let collides = sides.any(|side| side == Side::Unilateral);
         Ok(v1::Model {
             name: self.name.to_owned(),
             description: self.what.to_owned(),
@@ -60,6 +62,8 @@ impl Model for NonsmoothModel {
             capabilities: Some(v1::Capabilities {
                 repeats_step_sequence: true,
                 exportable_snapshot: true,
+                impulses: !collides,
+                impacts: collides,
                 ..v1::Capabilities::default()
             }),
         })

@@ -86,11 +86,14 @@ pub fn descriptions() -> Vec<v1::SolverKind> {
                 ),
             ],
         ),
-        described(
-            MOREAU,
-            "Moreau's midpoint rule, order 1, explicit: omega step < 2",
-            vec![],
-        ),
+        v1::SolverKind {
+            without_impacts: true,
+            ..described(
+                MOREAU,
+                "Moreau's midpoint rule, order 1, explicit: omega step < 2",
+                vec![],
+            )
+        },
         described(
             HETS,
             "half-explicit timestepping, order 2, explicit but for contact forces: omega step < 2",

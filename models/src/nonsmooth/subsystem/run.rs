@@ -5,8 +5,9 @@ use std::sync::Arc;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
+use linchpin_worker::{Impact, Impacts, Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
 
+use super::collided::{Collided, Pace};
 use super::face::{Face, Output};
 use super::observed::{Motion, Observer, PointMotion};
 use super::options::choose;
@@ -14,6 +15,7 @@ use crate::mechanics::fixed::parts;
 use crate::nonsmooth::contact_log::ContactLog;
 use crate::nonsmooth::mechanics::StepError;
 use crate::nonsmooth::mixed::Integrator;
+use crate::nonsmooth::schemes::SchemeKind;
 use crate::nonsmooth::state::Drive;
 use crate::nonsmooth::system::MechanicalSystem;
 
@@ -35,6 +37,11 @@ pub struct Run {
     impulses: Vec<f64>,
     /// Inputs at an instant, as polynomials.
     held: Inputs,
+    /// Values of the inputs at the end of the last step, and at the start of the present one.
+    at_end: Vec<f64>,
+    at_start: Vec<f64>,
+    /// What collides in a step.
+    collided: Collided,
     accelerations: Vec<f64>,
     /// Memory before a step, and of a snapshot.
     kept: Vec<f64>,
@@ -83,9 +90,12 @@ impl Run {
         Ok(Self {
             outputs: outputs.into_iter().map(|(output, _)| output).collect(),
             accelerations: vec![0.0; integrator.state.q.len()],
-            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts],
+            kept: vec![0.0; integrator.memory_len() + OWN_NUMBERS + contacts + defaults.len()],
             impulses: vec![0.0; contacts],
             held: Inputs::constant(&defaults),
+            at_start: defaults.clone(),
+            at_end: defaults.clone(),
+            collided: Collided::new(contacts, choice.scheme == SchemeKind::Moreau),
             last: Interlude {
                 impacts: 0.0,
                 time: setup.t_start(),
@@ -98,7 +108,12 @@ impl Run {
         })
     }
 
-    fn advance(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+    fn advance(
+        &mut self,
+        interval: Interval,
+        inputs: &Inputs,
+        pace: Pace,
+    ) -> Result<(), StepFailure> {
         let parts = parts(interval, self.step)?;
         let dt = interval.length / parts as f64;
         let drive = Drive {
@@ -106,22 +121,35 @@ impl Run {
             inputs,
         };
         self.integrator.begin_interval();
-        if !self.has_started {
-            let started = self.integrator.start(drive);
-            started.map_err(|error| failed(interval.start, error))?;
-            self.has_started = true;
-        }
+        self.collided.begin(pace, parts as usize);
         let before = self.integrator.log;
+        if !self.has_started {
+            let (collided, integrator) = (&mut self.collided, &mut self.integrator);
+            let started = integrator.start_with(drive, collided.at_start());
+            started.map_err(|error| failed(interval.start, error))?;
+            inputs.values_at(0.0, &mut self.at_end);
+            self.has_started = true;
+            if self.integrator.log.impacts > before.impacts {
+                self.collided.note(0.0, None, &self.integrator);
+            }
+        }
+        self.begin_inputs(drive)?;
         let mut first_impact = None;
         self.impulses.fill(0.0);
         for part in 0..parts {
             // Not added up, so that the last step ends where the interval does.
             self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
+            let end = interval.length * ((part + 1) as f64 / parts as f64);
             let impacts = self.integrator.log.impacts;
-            let stepped = self.integrator.step(drive, dt);
+            let collisions = self.collided.in_step(part as usize, end);
+            let stepped = self.integrator.step_with(drive, dt, collisions);
             let t = interval.start + self.integrator.state.tau;
             stepped.map_err(|error| failed(t, error))?;
+            self.collided
+                .keep_active(part as usize, self.integrator.active());
             if self.integrator.log.impacts > impacts {
+                self.collided
+                    .note(end, Some(part as usize), &self.integrator);
                 first_impact.get_or_insert(t);
                 for (place, impulse) in self.impulses.iter_mut().enumerate() {
                     let row = self.integrator.mechanics.first_row(place);
@@ -129,6 +157,7 @@ impl Run {
                 }
             }
         }
+        drive.inputs.values_at(interval.length, &mut self.at_end);
         let log = self.integrator.log;
         self.last = Interlude {
             impacts: (log.impacts - before.impacts) as f64,
@@ -136,6 +165,38 @@ impl Run {
             impulse: log.impulse - before.impulse,
         };
         Ok(())
+    }
+
+    /// Takes over the inputs at the start of a step, which may differ from those at the end of the last one.
+    fn begin_inputs(&mut self, drive: Drive<'_>) -> Result<(), StepFailure> {
+        drive.inputs.values_at(0.0, &mut self.at_start);
+        if self.at_start == self.at_end {
+            return Ok(());
+        }
+        let at_end = std::mem::take(&mut self.at_end);
+        self.hold(&at_end);
+        self.at_end = at_end;
+        let before = Drive {
+            start: drive.start,
+            inputs: &self.held,
+        };
+        let passed = self.integrator.pass_jump(before, drive);
+        passed.map_err(|error| failed(drive.start, error))
+    }
+
+    /// A step that fails leaves the state as it was.
+    fn try_advance(
+        &mut self,
+        interval: Interval,
+        inputs: &Inputs,
+        pace: Pace,
+    ) -> Result<(), StepFailure> {
+        self.keep();
+        let advanced = self.advance(interval, inputs, pace);
+        if advanced.is_err() {
+            self.recall();
+        }
+        advanced
     }
 
     /// All numbers that later steps and outputs depend on.
@@ -153,6 +214,7 @@ impl Run {
             impulse,
         ]);
         put(&self.impulses);
+        put(&self.at_end);
     }
 
     /// Keeps what [`Run::recall`] goes back to.
@@ -165,7 +227,8 @@ impl Run {
 
     fn recall(&mut self) {
         let own = self.integrator.recall(&self.kept);
-        if let &[has_started, impacts, time, impulse, ref impulses @ ..] = own {
+        if let &[has_started, impacts, time, impulse, ref rest @ ..] = own {
+            let (impulses, at_end) = rest.split_at(self.impulses.len());
             self.has_started = has_started == 1.0;
             self.last = Interlude {
                 impacts,
@@ -173,6 +236,7 @@ impl Run {
                 impulse,
             };
             self.impulses.copy_from_slice(impulses);
+            self.at_end.copy_from_slice(at_end);
         }
     }
 
@@ -279,12 +343,30 @@ fn failed(t: f64, error: StepError) -> StepFailure {
 
 impl Subsystem for Run {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
-        self.keep();
-        let advanced = self.advance(interval, inputs);
-        if advanced.is_err() {
-            self.recall();
-        }
-        advanced
+        self.try_advance(interval, inputs, Pace::Own)
+    }
+
+    /// Closes and collides as the last step did: what another pattern of contacts makes of a perturbation is no derivative.
+    fn perturbed_step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
+        self.try_advance(interval, inputs, Pace::Repeated)
+    }
+
+    fn impulse(&mut self, t: f64, inputs: &[f64], impulses: &[f64]) -> Result<(), StepFailure> {
+        self.hold(inputs);
+        let drive = Drive {
+            start: t - self.integrator.state.tau,
+            inputs: &self.held,
+        };
+        let jumped = self.integrator.take_impulse(drive, impulses);
+        jumped.map_err(|error| failed(t, error))
+    }
+
+    fn treat_impacts(&mut self, impacts: &Impacts) -> Result<(), StepFailure> {
+        self.collided.treat(impacts)
+    }
+
+    fn impacts(&self) -> &[Impact] {
+        self.collided.impacts()
     }
 
     fn outputs(

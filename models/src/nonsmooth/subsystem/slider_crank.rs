@@ -3,11 +3,11 @@
 //! * [`parameters`]: what a scene gives; [`face`]: what a master sees;
 //! * [`rigid`], [`flexible`]: outputs and markers of the two systems; [`picture`]: markers that are only drawn.
 
-mod face;
+pub mod face;
 mod flexible;
-mod parameters;
-mod picture;
-mod rigid;
+pub mod parameters;
+pub mod picture;
+pub mod rigid;
 
 use std::sync::Arc;
 

@@ -22,11 +22,11 @@
 //! Q_f = l_1 w_1^2 (c S_bar_x + s S_bar_y)^T + w_2^2 (I_3^T + S_ff q_f) + 2 w_2 S_tilde q_f'
 //! ```
 //!
-//! * [`outputs`]: what is drawn and reported; [`guide`]: rows of the contacts.
+//! * [`outputs`]: what is drawn and reported.
 
-pub mod guide;
 pub mod outputs;
 
+use super::guiding;
 use super::notch::Notch;
 use super::rigid_slider_crank::{Guide, Mechanism};
 use super::rod::integrals::product;
@@ -265,7 +265,7 @@ impl MechanicalSystem for FlexibleSliderCrank {
 
     fn directions(&self, q: &[f64], rows: &mut [f64]) {
         let moved = self.slider_by_coordinates(q);
-        let guiding = guide::rows(self.guide, &self.mechanism.notch, q[2]);
+        let guiding = guiding::rows(self.guide, &self.mechanism.notch, q[2]);
         for (row, guiding) in rows.chunks_exact_mut(q.len()).zip(guiding) {
             moved.write(guiding.by_place, row);
             row[2] = guiding.by_angle;
@@ -274,7 +274,7 @@ impl MechanicalSystem for FlexibleSliderCrank {
 
     fn direction_rates(&self, q: &[f64], v: &[f64], rates: &mut [f64]) {
         let [x, y] = self.slider_acceleration_of_velocities(q, v);
-        let guiding = guide::rows(self.guide, &self.mechanism.notch, q[2]);
+        let guiding = guiding::rows(self.guide, &self.mechanism.notch, q[2]);
         for (rate, guiding) in rates.iter_mut().zip(guiding) {
             let [by_x, by_y] = guiding.by_place;
             *rate = by_x * x + by_y * y + guiding.by_angle_twice * v[2] * v[2];

@@ -1,37 +1,90 @@
-//! Steps that are cut at instants inside them.
+//! Steps that are cut at instants inside them, to tell outputs there, or because loads have impulses.
 //!
 //! A look-ahead and its perturbed ones go from instant to instant side by side: between two instants the perturbed ones repeat the
 //! internal steps of the one that is not perturbed, from states of their own.
 
-use linchpin_proto::exchange::check_instants;
+use linchpin_proto::exchange::{check_instants, is_until};
 use linchpin_proto::v1::{self, Failure};
 
 use super::look_ahead::{Horizon, Sequence};
 use super::{Base, Motion, NOWHERE, outputs_of, tell};
-use crate::{Interval, Snapshot};
+use crate::{Impact, Interval, Snapshot};
 
 /// A part of a step, from one instant to the next.
 #[derive(Clone, Copy)]
-struct Part {
+struct Part<'a> {
     /// Its start, s after that of the step.
     from: f64,
     /// Its end, likewise.
     to: f64,
-    /// Number of the instant at its end; absent at the end of the step.
-    instant: Option<usize>,
+    /// What is there.
+    at_end: AtEnd<'a>,
 }
 
-fn parts(length: f64, instants: &[f64]) -> impl Iterator<Item = Part> {
-    let starts = std::iter::once(0.0).chain(instants.iter().copied());
-    let ends = instants.iter().copied().chain([length]);
-    starts
-        .zip(ends)
-        .enumerate()
-        .map(|(number, (from, to))| Part {
-            from,
-            to,
-            instant: (number < instants.len()).then_some(number),
-        })
+/// What is at the end of a part.
+#[derive(Clone, Copy, PartialEq)]
+enum AtEnd<'a> {
+    /// The end of the step.
+    Step,
+    /// An instant, by its number.
+    Instant(usize),
+    /// Impulses, one for each input.
+    Impact(&'a [f64]),
+}
+
+/// The parts of a step, one after the other.
+struct Parts<'a> {
+    length: f64,
+    instants: &'a [f64],
+    strikes: &'a [Impact],
+    /// Instants and impacts so far.
+    done: [usize; 2],
+    from: f64,
+    is_over: bool,
+}
+
+impl<'a> Parts<'a> {
+    fn new(length: f64, instants: &'a [f64], strikes: &'a [Impact]) -> Self {
+        Self {
+            length,
+            instants,
+            strikes,
+            done: [0; 2],
+            from: 0.0,
+            is_over: false,
+        }
+    }
+}
+
+impl<'a> Iterator for Parts<'a> {
+    type Item = Part<'a>;
+
+    /// Where both are at one time, outputs are told before the impact.
+    fn next(&mut self) -> Option<Part<'a>> {
+        if self.is_over {
+            return None;
+        }
+        let [instants, strikes] = &mut self.done;
+        let instant = self.instants.get(*instants).copied();
+        let strike = self.strikes.get(*strikes);
+        let strike = strike.filter(|strike| is_until(strike.at, self.length));
+        let (to, at_end) = match (instant, strike) {
+            (Some(instant), strike) if strike.is_none_or(|strike| instant <= strike.at) => {
+                *instants += 1;
+                (instant, AtEnd::Instant(*instants - 1))
+            }
+            (_, Some(strike)) => {
+                *strikes += 1;
+                (strike.at.min(self.length), AtEnd::Impact(&strike.loads))
+            }
+            (_, None) => {
+                self.is_over = true;
+                (self.length, AtEnd::Step)
+            }
+        };
+        let from = std::mem::replace(&mut self.from, to);
+        Some(Part { from, to, at_end })
+    }
 }
 
 impl Motion {
@@ -46,13 +99,24 @@ impl Motion {
         check_instants(instants, interval.length)?;
         self.make_room(outputs, instants, values);
         self.integrations += 1;
-        for part in parts(interval.length, instants) {
+        let strikes = std::mem::take(&mut self.treated.strikes);
+        let done = Parts::new(interval.length, instants, &strikes).try_for_each(|part| {
             self.integrate_part(interval, part, Sequence::Own)?;
-            self.read_part(interval, part, outputs, values)?;
-        }
+            self.end_part(interval, part, outputs, values)
+        });
+        self.treated.strikes = strikes;
+        done?;
         self.newest += 1;
         self.stands_at = self.newest;
         Ok(())
+    }
+
+    /// Steps over `interval` under the present signals to where outputs are told that nobody waits for.
+    pub(super) fn step_to_sample(&mut self, interval: Interval) -> Result<(), Failure> {
+        let mut unread = std::mem::take(&mut self.unread);
+        let done = self.step_cut((interval, &[]), v1::OutputSet::Coupling, &mut unread);
+        self.unread = unread;
+        done
     }
 
     fn make_room(&self, outputs: v1::OutputSet, instants: &[f64], values: &mut Vec<f64>) {
@@ -91,13 +155,11 @@ impl Motion {
         let mut under_way = std::mem::take(&mut self.under_way);
         under_way.resize_with(perturbed.len() + 1, Snapshot::default);
         self.begin_under_way(&mut under_way);
-        let mut done = Ok(());
-        for part in parts(interval.length, instants) {
-            done = self.look_over(interval, part, perturbed, &mut under_way, (values, outputs));
-            if done.is_err() {
-                break;
-            }
-        }
+        let strikes = std::mem::take(&mut self.treated.strikes);
+        let done = Parts::new(interval.length, instants, &strikes).try_for_each(|part| {
+            self.look_over(interval, part, perturbed, &mut under_way, (values, outputs))
+        });
+        self.treated.strikes = strikes;
         (self.under_way, self.unread) = (under_way, unread);
         self.stands_at = NOWHERE;
         done
@@ -118,7 +180,7 @@ impl Motion {
     fn look_over(
         &mut self,
         interval: Interval,
-        part: Part,
+        part: Part<'_>,
         perturbed: &[v1::Signal],
         under_way: &mut [Snapshot],
         (values, outputs): (&mut Vec<f64>, &mut [v1::Outputs]),
@@ -137,7 +199,7 @@ impl Motion {
                 .transpose()?;
             let done = self
                 .integrate_part(interval, part, sequence)
-                .and_then(|()| self.read_part(interval, part, v1::OutputSet::Coupling, values));
+                .and_then(|()| self.end_part(interval, part, v1::OutputSet::Coupling, values));
             if let Some(replaced) = replaced {
                 self.signals.put_back(replaced);
             }
@@ -151,13 +213,20 @@ impl Motion {
     fn integrate_part(
         &mut self,
         interval: Interval,
-        part: Part,
+        part: Part<'_>,
         sequence: Sequence,
     ) -> Result<(), Failure> {
         let own = Interval {
             start: interval.start + part.from,
             length: part.to - part.from,
         };
+        // Impacts may be at the start, at the end or at one instant.
+        if own.length <= 0.0 {
+            return Ok(());
+        }
+        if sequence == Sequence::Own {
+            self.begin_part([part.from, part.to])?;
+        }
         let inputs = self.signals.inputs_from(part.from);
         self.stands_at = NOWHERE;
         self.last_step = None;
@@ -165,30 +234,44 @@ impl Motion {
             Sequence::Own => self.subsystem.step(own, inputs),
             Sequence::Repeated => self.subsystem.perturbed_step(own, inputs),
         };
-        done.map_err(|failure| tell(failure, interval.start, interval.length))
+        done.map_err(|failure| tell(failure, interval.start, interval.length))?;
+        if sequence == Sequence::Own {
+            self.end_impacts_of_part(part.from);
+        }
+        Ok(())
     }
 
-    /// Reads what is wanted at the end of a part to its place among `values`, and adds the integrals over it.
-    fn read_part(
+    /// Reads what is wanted at the end of a part to its place among `values`, adds the integrals over it, and lets velocities jump there.
+    fn end_part(
         &mut self,
         interval: Interval,
-        part: Part,
+        part: Part<'_>,
         at_end: v1::OutputSet,
         values: &mut [f64],
     ) -> Result<(), Failure> {
         let at_end = outputs_of(at_end, [&self.coupling_outputs, &self.all_outputs]);
         let interior = &self.interior_outputs;
         let integrals = at_end.len()..at_end.len() + self.integrated.values();
-        let (wanted, first) = match part.instant {
-            None => (at_end, 0),
-            Some(instant) => (&interior[..], integrals.end + instant * interior.len()),
+        let (wanted, first) = match part.at_end {
+            AtEnd::Step => (at_end, 0),
+            AtEnd::Instant(instant) => (&interior[..], integrals.end + instant * interior.len()),
+            AtEnd::Impact(_) => (&interior[..0], 0),
         };
-        let inputs = self.signals.values_at(part.to);
-        let told = &mut values[first..first + wanted.len()];
-        self.subsystem
-            .outputs(interval.start + part.to, inputs, wanted, told)
-            .map_err(|failure| tell(failure, interval.start, interval.length))?;
-        self.add_integrals_of_part(interval, [part.from, part.to], &mut values[integrals])
+        if !matches!(part.at_end, AtEnd::Impact(_)) {
+            let inputs = self.signals.values_at(part.to);
+            let told = &mut values[first..first + wanted.len()];
+            self.subsystem
+                .outputs(interval.start + part.to, inputs, wanted, told)
+                .map_err(|failure| tell(failure, interval.start, interval.length))?;
+        }
+        if part.to > part.from {
+            let integrals = &mut values[integrals];
+            self.add_integrals_of_part(interval, [part.from, part.to], integrals)?;
+        }
+        match part.at_end {
+            AtEnd::Impact(impulses) => self.strike(interval, part.to, impulses),
+            AtEnd::Step | AtEnd::Instant(_) => Ok(()),
+        }
     }
 
     /// Derivatives at the horizon, of integrals, and at the instants, one for each direction. They are those of steps from the start to each instant.

@@ -4,6 +4,7 @@ mod charts;
 mod errors;
 mod odd_data;
 mod portraits;
+mod quantities;
 mod read;
 mod spectra;
 

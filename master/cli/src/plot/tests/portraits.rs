@@ -23,11 +23,11 @@ fn circle(radius: f64, count: u32) -> impl Iterator<Item = (f64, f64)> {
     (0..count).map(move |i| (radius * angle(i).cos(), radius * angle(i).sin()))
 }
 
-fn marks(t: impl IntoIterator<Item = f64>) -> TimeMarks {
-    TimeMarks {
-        name: "impact".into(),
+fn marks(t: impl IntoIterator<Item = f64>) -> Vec<TimeMarks> {
+    vec![TimeMarks {
+        kind: MarkKind::Impact,
         t: t.into_iter().collect(),
-    }
+    }]
 }
 
 #[test]

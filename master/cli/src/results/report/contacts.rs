@@ -67,14 +67,14 @@ fn write_warnings(contacts: &ContactStatistics, text: &mut String) -> std::fmt::
     Ok(())
 }
 
-/// An impact inside a subsystem is a jump for the partner behind a rigid joint, which coupling by forces does not see.
+/// An impact is a jump for the partner behind a rigid joint, which coupling by forces alone does not see.
 fn write_crossing(
     scene: &Scene,
     subsystem: &str,
     contacts: &ContactStatistics,
     text: &mut String,
 ) -> std::fmt::Result {
-    if contacts.impacts == 0 {
+    if contacts.impacts == 0 || contacts.crosses_joints {
         return Ok(());
     }
     let is_own = |side: &Side| scene.subsystems[side.subsystem].name == subsystem;
@@ -82,8 +82,8 @@ fn write_crossing(
     for joint in scene.joints.iter().filter(holds) {
         writeln!(
             text,
-            "  WARNING: {} impacts inside {subsystem} while the joint {} holds it: impacts do not cross a joint, so that the partner's \
-             velocity is wrong behind each of them; put both into one subsystem, or couple them by a spring",
+            "  WARNING: {} impacts inside {subsystem} while the joint {} holds it: forces alone cross the joint, so that the partner's \
+             velocity is wrong behind each of them; with coupling.impacts = \"impulses\" partners take part",
             contacts.impacts, joint.name
         )?;
     }

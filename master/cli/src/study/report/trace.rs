@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use linchpin_master::results::{Drawn, Row};
+use linchpin_master::results::{Quantity, Row};
 use serde::{Deserialize, Serialize};
 
 use crate::results::Thinned;
@@ -66,7 +66,10 @@ impl Recorder for TraceRecorder<'_> {
     fn begin(&mut self, row: &Row) -> Result<(), Infallible> {
         let all = 0..row.columns().len();
         self.residuals = all
-            .filter(|place| row.drawn(*place) == Some(Drawn::Residual))
+            .filter(|place| {
+                let quantity = row.descriptions()[*place].quantity;
+                quantity == Quantity::Residual && row.is_drawn(*place)
+            })
             .collect();
         let columns = self.columns.iter();
         let energy = columns

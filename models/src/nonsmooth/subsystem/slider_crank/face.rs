@@ -17,19 +17,6 @@ pub const MOVING: usize = 3;
 pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
     let guide = guide(parameters)?;
     let elements = elements(parameters)?;
-    let contacts = match guide {
-        Guide::Clearance(_) => {
-            let corner = |number| FaceContact::at_point(&format!("corner{number}"));
-            (1..=4).map(corner).collect()
-        }
-        Guide::Bilateral { .. } => {
-            vec![
-                FaceContact::at_point("across"),
-                FaceContact::of_angle("turn"),
-            ]
-        }
-        Guide::Free => Vec::new(),
-    };
     let moving = |name: &str, load: &[&str]| FaceMarker {
         name: name.to_owned(),
         load: load.iter().map(|&name| name.to_owned()).collect(),
@@ -55,7 +42,7 @@ pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
             ),
             Coordinate::angle("theta3", "omega3", "angle of the slider"),
         ],
-        contacts,
+        contacts: contacts(guide),
         inputs: vec![
             input(
                 "torque",
@@ -78,9 +65,31 @@ pub fn face(parameters: &Parameters<'_>) -> Result<Face, SetupError> {
     })
 }
 
+/// The contacts of a guide.
+pub fn contacts(guide: Guide) -> Vec<FaceContact> {
+    match guide {
+        Guide::Clearance(_) => {
+            let corner = |number| FaceContact::at_point(&format!("corner{number}"));
+            (1..=4).map(corner).collect()
+        }
+        Guide::Bilateral { .. } => {
+            vec![
+                FaceContact::at_point("across"),
+                FaceContact::of_angle("turn"),
+            ]
+        }
+        Guide::Free => Vec::new(),
+    }
+}
+
+/// The height of the slider as an output.
+pub fn slider_share() -> v1::Variable {
+    let what = "height of the slider's centre as a share of the clearance; in m without clearance";
+    output("slider_share", "1", what)
+}
+
 fn own(elements: usize) -> Vec<v1::Variable> {
-    let share = "height of the slider's centre as a share of the clearance; in m without clearance";
-    let mut own = vec![output("slider_share", "1", share)];
+    let mut own = vec![slider_share()];
     if elements > 0 {
         own.extend([
             output(

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::face::MOVING;
 use super::picture::{Drawn, Picture};
-use super::rigid::{along, with_angle};
+use super::rigid::{along, share_of, with_angle};
 use crate::nonsmooth::subsystem::observed::{Motion, Observer, PointMotion};
 use crate::nonsmooth::system::MechanicalSystem;
 use crate::nonsmooth::systems::flexible_slider_crank::FlexibleSliderCrank;
@@ -44,7 +44,7 @@ impl Observer for Flexible {
             0 => {
                 let clearance = self.system.mechanism().notch.clearance;
                 let [_, y] = self.system.slider(q);
-                if clearance > 0.0 { y / clearance } else { y }
+                share_of(y, clearance)
             }
             1 => self.system.end_displacement(q)[0],
             2 => self.system.end_displacement(q)[1],

@@ -148,6 +148,23 @@ pub const KEYS: &[Key] = &[
     number("omega3_0", "rad/s", 0.0, "rate of the slider at the start"),
 ];
 
+/// The parameter of this name, for models of a part of the mechanism.
+pub const fn key(name: &str) -> Key {
+    let mut place = 0;
+    while !is_same(KEYS[place].name.as_bytes(), name.as_bytes()) {
+        place += 1;
+    }
+    KEYS[place]
+}
+
+const fn is_same(one: &[u8], other: &[u8]) -> bool {
+    let mut place = 0;
+    while place < one.len() && place < other.len() && one[place] == other[place] {
+        place += 1;
+    }
+    place == one.len() && place == other.len()
+}
+
 /// Any numbers.
 pub fn numbers<const N: usize>(
     parameters: &Parameters<'_>,
@@ -169,11 +186,16 @@ pub fn mechanism(parameters: &Parameters<'_>) -> Result<Mechanism, SetupError> {
         inertias: [positive("j1")?, positive("j2")?, positive("j3")?],
         gravity: parameters.number("gravity")?,
         torque: parameters.number("constant_torque")?,
-        notch: Notch {
-            half_length: positive("a")?,
-            half_height: positive("b")?,
-            clearance: parameters.non_negative("c")?,
-        },
+        notch: notch(parameters)?,
+    })
+}
+
+/// Slider and notch.
+pub fn notch(parameters: &Parameters<'_>) -> Result<Notch, SetupError> {
+    Ok(Notch {
+        half_length: parameters.positive("a")?,
+        half_height: parameters.positive("b")?,
+        clearance: parameters.non_negative("c")?,
     })
 }
 
@@ -193,8 +215,19 @@ pub fn guide(parameters: &Parameters<'_>) -> Result<Guide, SetupError> {
 
 /// How much larger than they are clearance and deflection are drawn.
 pub fn magnifications(parameters: &Parameters<'_>) -> Result<[f64; 2], SetupError> {
-    let one = |name| parameters.number_in(name, "it must be 1 or greater", |value| value >= 1.0);
-    Ok([one("magnification")?, one("bending_magnification")?])
+    Ok([
+        magnification(parameters)?,
+        at_least_one(parameters, "bending_magnification")?,
+    ])
+}
+
+/// How much larger than it is the clearance is drawn.
+pub fn magnification(parameters: &Parameters<'_>) -> Result<f64, SetupError> {
+    at_least_one(parameters, "magnification")
+}
+
+fn at_least_one(parameters: &Parameters<'_>, name: &str) -> Result<f64, SetupError> {
+    parameters.number_in(name, "it must be 1 or greater", |value| value >= 1.0)
 }
 
 /// Elements of the rod; 0 if it is rigid.

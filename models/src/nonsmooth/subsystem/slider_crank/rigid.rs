@@ -22,7 +22,7 @@ impl Observer for Rigid {
     fn own_output(&self, _output: usize, motion: Motion<'_>) -> f64 {
         let clearance = self.system.mechanism().notch.clearance;
         let [_, y] = self.system.slider(motion.q);
-        if clearance > 0.0 { y / clearance } else { y }
+        share_of(y, clearance)
     }
 
     fn marker(&self, marker: usize, motion: Motion<'_>) -> PointMotion {
@@ -43,6 +43,11 @@ impl Observer for Rigid {
             }
         }
     }
+}
+
+/// A height as a share of the clearance; itself without clearance.
+pub fn share_of(y: f64, clearance: f64) -> f64 {
+    if clearance > 0.0 { y / clearance } else { y }
 }
 
 /// The motion of a point at `length` in the direction of an angle from another point.

@@ -138,14 +138,16 @@ class Parameter(_message.Message):
     def __init__(self, name: _Optional[str] = ..., unit: _Optional[str] = ..., description: _Optional[str] = ..., default: _Optional[float] = ...) -> None: ...
 
 class SolverKind(_message.Message):
-    __slots__ = ("name", "description", "options")
+    __slots__ = ("name", "description", "options", "without_impacts")
     NAME_FIELD_NUMBER: _ClassVar[int]
     DESCRIPTION_FIELD_NUMBER: _ClassVar[int]
     OPTIONS_FIELD_NUMBER: _ClassVar[int]
+    WITHOUT_IMPACTS_FIELD_NUMBER: _ClassVar[int]
     name: str
     description: str
     options: _containers.RepeatedCompositeFieldContainer[Parameter]
-    def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., options: _Optional[_Iterable[_Union[Parameter, _Mapping]]] = ...) -> None: ...
+    without_impacts: bool
+    def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., options: _Optional[_Iterable[_Union[Parameter, _Mapping]]] = ..., without_impacts: _Optional[bool] = ...) -> None: ...
 
 class Marker(_message.Message):
     __slots__ = ("name", "kind", "position", "velocity", "acceleration", "load")
@@ -172,7 +174,7 @@ class StateVariable(_message.Message):
     def __init__(self, output: _Optional[str] = ..., initial: _Optional[str] = ...) -> None: ...
 
 class Capabilities(_message.Message):
-    __slots__ = ("exchange", "repeats_step_sequence", "max_input_degree", "exportable_snapshot", "joint_loads", "directional_derivatives", "interior_outputs", "output_integrals")
+    __slots__ = ("exchange", "repeats_step_sequence", "max_input_degree", "exportable_snapshot", "joint_loads", "directional_derivatives", "interior_outputs", "output_integrals", "impulses", "impacts")
     EXCHANGE_FIELD_NUMBER: _ClassVar[int]
     REPEATS_STEP_SEQUENCE_FIELD_NUMBER: _ClassVar[int]
     MAX_INPUT_DEGREE_FIELD_NUMBER: _ClassVar[int]
@@ -181,6 +183,8 @@ class Capabilities(_message.Message):
     DIRECTIONAL_DERIVATIVES_FIELD_NUMBER: _ClassVar[int]
     INTERIOR_OUTPUTS_FIELD_NUMBER: _ClassVar[int]
     OUTPUT_INTEGRALS_FIELD_NUMBER: _ClassVar[int]
+    IMPULSES_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
     exchange: bool
     repeats_step_sequence: bool
     max_input_degree: int
@@ -189,7 +193,37 @@ class Capabilities(_message.Message):
     directional_derivatives: bool
     interior_outputs: bool
     output_integrals: bool
-    def __init__(self, exchange: _Optional[bool] = ..., repeats_step_sequence: _Optional[bool] = ..., max_input_degree: _Optional[int] = ..., exportable_snapshot: _Optional[bool] = ..., joint_loads: _Optional[bool] = ..., directional_derivatives: _Optional[bool] = ..., interior_outputs: _Optional[bool] = ..., output_integrals: _Optional[bool] = ...) -> None: ...
+    impulses: bool
+    impacts: bool
+    def __init__(self, exchange: _Optional[bool] = ..., repeats_step_sequence: _Optional[bool] = ..., max_input_degree: _Optional[int] = ..., exportable_snapshot: _Optional[bool] = ..., joint_loads: _Optional[bool] = ..., directional_derivatives: _Optional[bool] = ..., interior_outputs: _Optional[bool] = ..., output_integrals: _Optional[bool] = ..., impulses: _Optional[bool] = ..., impacts: _Optional[bool] = ...) -> None: ...
+
+class Impact(_message.Message):
+    __slots__ = ("at", "contacts", "loads", "multipliers")
+    AT_FIELD_NUMBER: _ClassVar[int]
+    CONTACTS_FIELD_NUMBER: _ClassVar[int]
+    LOADS_FIELD_NUMBER: _ClassVar[int]
+    MULTIPLIERS_FIELD_NUMBER: _ClassVar[int]
+    at: float
+    contacts: _containers.RepeatedScalarFieldContainer[int]
+    loads: _containers.RepeatedScalarFieldContainer[float]
+    multipliers: _containers.RepeatedScalarFieldContainer[float]
+    def __init__(self, at: _Optional[float] = ..., contacts: _Optional[_Iterable[int]] = ..., loads: _Optional[_Iterable[float]] = ..., multipliers: _Optional[_Iterable[float]] = ...) -> None: ...
+
+class Impacts(_message.Message):
+    __slots__ = ("impacts",)
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
+    impacts: _containers.RepeatedCompositeFieldContainer[Impact]
+    def __init__(self, impacts: _Optional[_Iterable[_Union[Impact, _Mapping]]] = ...) -> None: ...
+
+class Interface(_message.Message):
+    __slots__ = ("rows", "directions", "mobility")
+    ROWS_FIELD_NUMBER: _ClassVar[int]
+    DIRECTIONS_FIELD_NUMBER: _ClassVar[int]
+    MOBILITY_FIELD_NUMBER: _ClassVar[int]
+    rows: int
+    directions: _containers.RepeatedScalarFieldContainer[float]
+    mobility: _containers.RepeatedScalarFieldContainer[float]
+    def __init__(self, rows: _Optional[int] = ..., directions: _Optional[_Iterable[float]] = ..., mobility: _Optional[_Iterable[float]] = ...) -> None: ...
 
 class Value(_message.Message):
     __slots__ = ("number", "text", "flag", "numbers")
@@ -400,7 +434,7 @@ class Outputs(_message.Message):
     def __init__(self, values: _Optional[_Iterable[float]] = ...) -> None: ...
 
 class StepRequest(_message.Message):
-    __slots__ = ("instance", "sequence", "t", "step", "signals", "outputs", "instants", "integrals")
+    __slots__ = ("instance", "sequence", "t", "step", "signals", "outputs", "instants", "integrals", "impacts", "interface")
     INSTANCE_FIELD_NUMBER: _ClassVar[int]
     SEQUENCE_FIELD_NUMBER: _ClassVar[int]
     T_FIELD_NUMBER: _ClassVar[int]
@@ -409,6 +443,8 @@ class StepRequest(_message.Message):
     OUTPUTS_FIELD_NUMBER: _ClassVar[int]
     INSTANTS_FIELD_NUMBER: _ClassVar[int]
     INTEGRALS_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
+    INTERFACE_FIELD_NUMBER: _ClassVar[int]
     instance: int
     sequence: int
     t: float
@@ -417,22 +453,26 @@ class StepRequest(_message.Message):
     outputs: OutputSet
     instants: _containers.RepeatedScalarFieldContainer[float]
     integrals: int
-    def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ..., t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., outputs: _Optional[_Union[OutputSet, str]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ...) -> None: ...
+    impacts: Impacts
+    interface: Interface
+    def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ..., t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., outputs: _Optional[_Union[OutputSet, str]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ..., impacts: _Optional[_Union[Impacts, _Mapping]] = ..., interface: _Optional[_Union[Interface, _Mapping]] = ...) -> None: ...
 
 class StepReply(_message.Message):
-    __slots__ = ("outputs", "work", "instance", "sequence")
+    __slots__ = ("outputs", "work", "instance", "sequence", "impacts")
     OUTPUTS_FIELD_NUMBER: _ClassVar[int]
     WORK_FIELD_NUMBER: _ClassVar[int]
     INSTANCE_FIELD_NUMBER: _ClassVar[int]
     SEQUENCE_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
     outputs: Outputs
     work: Work
     instance: int
     sequence: int
-    def __init__(self, outputs: _Optional[_Union[Outputs, _Mapping]] = ..., work: _Optional[_Union[Work, _Mapping]] = ..., instance: _Optional[int] = ..., sequence: _Optional[int] = ...) -> None: ...
+    impacts: Impacts
+    def __init__(self, outputs: _Optional[_Union[Outputs, _Mapping]] = ..., work: _Optional[_Union[Work, _Mapping]] = ..., instance: _Optional[int] = ..., sequence: _Optional[int] = ..., impacts: _Optional[_Union[Impacts, _Mapping]] = ...) -> None: ...
 
 class PerturbedStepRequest(_message.Message):
-    __slots__ = ("instance", "sequence", "t", "step", "signals", "perturbed", "directions", "instants", "integrals")
+    __slots__ = ("instance", "sequence", "t", "step", "signals", "perturbed", "directions", "instants", "integrals", "impacts", "interface")
     INSTANCE_FIELD_NUMBER: _ClassVar[int]
     SEQUENCE_FIELD_NUMBER: _ClassVar[int]
     T_FIELD_NUMBER: _ClassVar[int]
@@ -442,6 +482,8 @@ class PerturbedStepRequest(_message.Message):
     DIRECTIONS_FIELD_NUMBER: _ClassVar[int]
     INSTANTS_FIELD_NUMBER: _ClassVar[int]
     INTEGRALS_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
+    INTERFACE_FIELD_NUMBER: _ClassVar[int]
     instance: int
     sequence: int
     t: float
@@ -451,7 +493,9 @@ class PerturbedStepRequest(_message.Message):
     directions: _containers.RepeatedCompositeFieldContainer[Signal]
     instants: _containers.RepeatedScalarFieldContainer[float]
     integrals: int
-    def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ..., t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., perturbed: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., directions: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ...) -> None: ...
+    impacts: Impacts
+    interface: Interface
+    def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ..., t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., perturbed: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., directions: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ..., impacts: _Optional[_Union[Impacts, _Mapping]] = ..., interface: _Optional[_Union[Interface, _Mapping]] = ...) -> None: ...
 
 class PerturbedStepReply(_message.Message):
     __slots__ = ("outputs", "work", "derivatives", "instance", "sequence")
@@ -546,23 +590,25 @@ class ExchangeRequest(_message.Message):
     def __init__(self, instance: _Optional[int] = ..., sequence: _Optional[int] = ..., advance: _Optional[_Union[Advance, _Mapping]] = ..., predict: _Optional[_Union[Predict, _Mapping]] = ..., go_back: _Optional[bool] = ..., evaluate: _Optional[_Union[Predict, _Mapping]] = ...) -> None: ...
 
 class Advance(_message.Message):
-    __slots__ = ("t", "step", "signals", "samples", "instants", "integrals")
+    __slots__ = ("t", "step", "signals", "samples", "instants", "integrals", "impacts")
     T_FIELD_NUMBER: _ClassVar[int]
     STEP_FIELD_NUMBER: _ClassVar[int]
     SIGNALS_FIELD_NUMBER: _ClassVar[int]
     SAMPLES_FIELD_NUMBER: _ClassVar[int]
     INSTANTS_FIELD_NUMBER: _ClassVar[int]
     INTEGRALS_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
     t: float
     step: float
     signals: _containers.RepeatedCompositeFieldContainer[Signal]
     samples: _containers.RepeatedScalarFieldContainer[float]
     instants: _containers.RepeatedScalarFieldContainer[float]
     integrals: int
-    def __init__(self, t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., samples: _Optional[_Iterable[float]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ...) -> None: ...
+    impacts: Impacts
+    def __init__(self, t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., samples: _Optional[_Iterable[float]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ..., impacts: _Optional[_Union[Impacts, _Mapping]] = ...) -> None: ...
 
 class Predict(_message.Message):
-    __slots__ = ("t", "step", "signals", "perturbed", "directions", "instants", "integrals")
+    __slots__ = ("t", "step", "signals", "perturbed", "directions", "instants", "integrals", "impacts", "interface")
     T_FIELD_NUMBER: _ClassVar[int]
     STEP_FIELD_NUMBER: _ClassVar[int]
     SIGNALS_FIELD_NUMBER: _ClassVar[int]
@@ -570,6 +616,8 @@ class Predict(_message.Message):
     DIRECTIONS_FIELD_NUMBER: _ClassVar[int]
     INSTANTS_FIELD_NUMBER: _ClassVar[int]
     INTEGRALS_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
+    INTERFACE_FIELD_NUMBER: _ClassVar[int]
     t: float
     step: float
     signals: _containers.RepeatedCompositeFieldContainer[Signal]
@@ -577,10 +625,12 @@ class Predict(_message.Message):
     directions: _containers.RepeatedCompositeFieldContainer[Signal]
     instants: _containers.RepeatedScalarFieldContainer[float]
     integrals: int
-    def __init__(self, t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., perturbed: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., directions: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ...) -> None: ...
+    impacts: Impacts
+    interface: Interface
+    def __init__(self, t: _Optional[float] = ..., step: _Optional[float] = ..., signals: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., perturbed: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., directions: _Optional[_Iterable[_Union[Signal, _Mapping]]] = ..., instants: _Optional[_Iterable[float]] = ..., integrals: _Optional[int] = ..., impacts: _Optional[_Union[Impacts, _Mapping]] = ..., interface: _Optional[_Union[Interface, _Mapping]] = ...) -> None: ...
 
 class ExchangeReply(_message.Message):
-    __slots__ = ("sequence", "advanced", "predicted", "perturbed", "work", "failure", "samples", "derivatives", "evaluated", "evaluated_perturbed", "evaluated_derivatives", "instance")
+    __slots__ = ("sequence", "advanced", "predicted", "perturbed", "work", "failure", "samples", "derivatives", "evaluated", "evaluated_perturbed", "evaluated_derivatives", "instance", "impacts")
     SEQUENCE_FIELD_NUMBER: _ClassVar[int]
     ADVANCED_FIELD_NUMBER: _ClassVar[int]
     PREDICTED_FIELD_NUMBER: _ClassVar[int]
@@ -593,6 +643,7 @@ class ExchangeReply(_message.Message):
     EVALUATED_PERTURBED_FIELD_NUMBER: _ClassVar[int]
     EVALUATED_DERIVATIVES_FIELD_NUMBER: _ClassVar[int]
     INSTANCE_FIELD_NUMBER: _ClassVar[int]
+    IMPACTS_FIELD_NUMBER: _ClassVar[int]
     sequence: int
     advanced: Outputs
     predicted: Outputs
@@ -605,7 +656,8 @@ class ExchangeReply(_message.Message):
     evaluated_perturbed: _containers.RepeatedCompositeFieldContainer[Outputs]
     evaluated_derivatives: _containers.RepeatedCompositeFieldContainer[Outputs]
     instance: int
-    def __init__(self, sequence: _Optional[int] = ..., advanced: _Optional[_Union[Outputs, _Mapping]] = ..., predicted: _Optional[_Union[Outputs, _Mapping]] = ..., perturbed: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., work: _Optional[_Union[Work, _Mapping]] = ..., failure: _Optional[_Union[Failure, _Mapping]] = ..., samples: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., derivatives: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., evaluated: _Optional[_Union[Outputs, _Mapping]] = ..., evaluated_perturbed: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., evaluated_derivatives: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., instance: _Optional[int] = ...) -> None: ...
+    impacts: Impacts
+    def __init__(self, sequence: _Optional[int] = ..., advanced: _Optional[_Union[Outputs, _Mapping]] = ..., predicted: _Optional[_Union[Outputs, _Mapping]] = ..., perturbed: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., work: _Optional[_Union[Work, _Mapping]] = ..., failure: _Optional[_Union[Failure, _Mapping]] = ..., samples: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., derivatives: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., evaluated: _Optional[_Union[Outputs, _Mapping]] = ..., evaluated_perturbed: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., evaluated_derivatives: _Optional[_Iterable[_Union[Outputs, _Mapping]]] = ..., instance: _Optional[int] = ..., impacts: _Optional[_Union[Impacts, _Mapping]] = ...) -> None: ...
 
 class Work(_message.Message):
     __slots__ = ("integrations", "steps", "nanoseconds", "derivatives", "contacts")
