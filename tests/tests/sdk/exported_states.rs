@@ -3,11 +3,11 @@
 use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{Driver, assert_misuse, failure, oscillator, tank, through};
 use crate::peer::{Serve, host};
 
-both_ways!(
+all_ways!(
     another_instance_in_another_worker_goes_on_bit_by_bit,
     what_was_looked_ahead_is_not_exported,
     a_damaged_or_foreign_state_is_refused_and_nothing_changes,

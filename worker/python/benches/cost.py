@@ -106,7 +106,7 @@ def initialize(channel):
     names = [variable.name for variable in TIP.outputs]
     request = pb.InitializeRequest(
         instance=1,
-        protocol=pb.ProtocolVersion(major=1, minor=3),
+        protocol=pb.ProtocolVersion(major=1, minor=4),
         model="body",
         inputs=[variable.name for variable in TIP.inputs],
         coupling_outputs=names,

@@ -13,6 +13,7 @@ class Oscillator(Subsystem):
         + [Parameter("x0", "m", default=0.0), Parameter("v0", "m/s", default=0.0)],
         markers=[scalar_marker("mass", position="x", velocity="v", acceleration="a", load="f")],
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

@@ -20,6 +20,7 @@ class Rod(Subsystem):
         + [Parameter(name, unit, default=0.0) for name, unit in (("x0", "m"), ("y0", "m"), ("angle0", "rad"))],
         markers=[START, END],
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

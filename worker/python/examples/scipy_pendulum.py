@@ -18,6 +18,7 @@ class Pendulum(Subsystem):
         parameters=[Parameter("m", "kg", above=0.0), Parameter("inertia", "kg m^2", above=0.0)]
         + [Parameter("length", "m", above=0.0), Parameter("angle0", "rad", default=0.0)],
         markers=[TIP],
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

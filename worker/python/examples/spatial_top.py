@@ -25,6 +25,7 @@ class Top(Subsystem):
         parameters=[Parameter(name, above=0.0) for name in NAMES] + [Parameter(name, default=0.0) for name in (*FREE, *RATES)],
         markers=[START],
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

@@ -19,6 +19,8 @@ class Mine(Subsystem):
         markers=[scalar_marker("mass", position="x", velocity="v", acceleration="a", load="f")],
         # True for fixed steps. An adaptive solver leaves it out, and sets the attribute `tolerance`.
         repeats_step_sequence=True,
+        # Another process can go on from what `save` gives: numbers, texts, tuples, lists, dicts, arrays. See there.
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

@@ -87,6 +87,7 @@ class Oscillator(Subsystem):
         states={"x": "x0", "v": "v0"},
         repeats_step_sequence=True,
         directional_derivatives=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):
@@ -268,7 +269,7 @@ class Faulty(Subsystem):
 class Array(Subsystem):
     """A state in an array that is changed in place, as solvers in C do; `x' = f`."""
 
-    description = Description("array", inputs=[Variable("f", default=0.0)], outputs=[Variable("x")])
+    description = Description("array", inputs=[Variable("f", default=0.0)], outputs=[Variable("x")], exportable_snapshot=True)
 
     def __init__(self, setup):
         self.state = [setup.t_start, 0.0]

@@ -11,7 +11,7 @@ from linchpin_worker import Address, Host, Limits, Server
 from linchpin_worker._contract import wire_pb2
 from linchpin_worker._contract import worker_pb2 as pb
 
-PROTOCOL = pb.ProtocolVersion(major=1, minor=3)
+PROTOCOL = pb.ProtocolVersion(major=1, minor=4)
 FIRST = 41
 STEP = 1.7e-3
 
@@ -117,7 +117,10 @@ class Stream:
 
     def turn(self, request):
         self.requests.put(request)
-        reply = next(self.replies)
+        try:
+            reply = next(self.replies)
+        except grpc.RpcError as error:
+            raise refusal(error) from None
         if reply.HasField("failure"):
             raise Refusal(None, reply.failure)
         return reply
@@ -165,6 +168,12 @@ class Driver:
     def restore(self, snapshot):
         return self.call("Restore", self.request(pb.RestoreRequest, snapshot=snapshot))
 
+    def export(self):
+        return self.call("ExportState", pb.ExportStateRequest(instance=self.instance)).state
+
+    def take_exported(self, state):
+        return self.call("ImportState", self.request(pb.ImportStateRequest, state=state))
+
     def exchange(self, **fields):
         if self.stream is None:
             self.stream = self.peer.stream(self.channel)
@@ -204,6 +213,14 @@ class PeerTest(unittest.TestCase):
         for word in words:
             self.assertIn(str(word), failure.message)
         return failure
+
+    def assert_no_instance(self, call, instance):
+        """`call` ends with the status that has its master make the instance anew."""
+        with self.assertRaises(Refusal) as caught:
+            call()
+        refusal = caught.exception
+        self.assertEqual((refusal.code, refusal.failure.field), (grpc.StatusCode.NOT_FOUND, "instance"))
+        self.assertIn(f"no instance {instance:#x} here; Initialize makes one", refusal.failure.message)
 
     def assert_misuse(self, field, call, *words):
         return self.assert_refused(pb.SEVERITY_MISUSE, call, *words, field=field)

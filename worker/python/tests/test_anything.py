@@ -9,6 +9,8 @@ from peer import FIRST, number, oscillator, tank
 
 from linchpin_worker import Host
 from linchpin_worker._contract import worker_pb2 as pb
+from linchpin_worker.encoding import encode
+from linchpin_worker.exported import sealed
 from linchpin_worker.failures import CallFailed
 
 ODD = (0.0, math.nan, math.inf, -math.inf, 1.7976931348623157e308, 5e-324, -1.0)
@@ -49,7 +51,7 @@ class Anything(unittest.TestCase):
         """A call of any kind, mostly with the next sequence number."""
         pick = self.random.random
         sequence = {"instance": 5, "sequence": self.sequence + self.random.choice([1, 1, 1, 0, 2])}
-        kind = self.random.choice(["step", "perturbed_step", "exchange", "snapshot", "restore", "evaluate"])
+        kind = self.random.choice(["step", "perturbed_step", "exchange", "snapshot", "restore", "import_state", "evaluate"])
         if kind == "step":
             return kind, pb.StepRequest(**sequence, **self.step(outputs=self.random.randint(-1, 2)))
         if kind == "perturbed_step":
@@ -64,6 +66,13 @@ class Anything(unittest.TestCase):
             return kind, pb.SnapshotRequest(**sequence, replaces=self.random.randint(0, 3))
         if kind == "restore":
             return kind, pb.RestoreRequest(**sequence, snapshot=self.random.randint(0, 3))
+        if kind == "import_state":
+            whole = encode((self.random.uniform(-3.0, 3.0), self.random.uniform(-3.0, 3.0)))
+            state = sealed(
+                self.random.choice(["oscillator", "oscillator", "tank"]), whole[: self.random.choice([None, None, 9])]
+            )
+            state.checksum ^= self.random.choice([0, 0, 0, 1])
+            return kind, pb.ImportStateRequest(**sequence, state=self.random.choice([state, state, None]))
         outputs = self.random.choices(["x", "level", "y"], k=2)
         return kind, pb.EvaluateRequest(instance=5, t=self.number(), signals=self.signals(), outputs=outputs)
 

@@ -22,6 +22,7 @@ class Initializing(WorkerTest):
                 max_input_degree=7,
                 directional_derivatives=True,
                 interior_outputs=True,
+                exportable_snapshot=True,
             ),
         )
         self.assertEqual([one.name for one in described["oscillator"].solvers], ["exact", "radau5", "rk4"])
@@ -48,7 +49,7 @@ class Initializing(WorkerTest):
         own = dict(oscillator().parameters)
         for request, field, words in (
             (initialize(model="clockwork"), "model", ["clockwork", "tank, oscillator, stand"]),
-            (tank(protocol=pb.ProtocolVersion(major=2, minor=5)), "protocol", ["1.3", "2.5"]),
+            (tank(protocol=pb.ProtocolVersion(major=2, minor=5)), "protocol", ["1.4", "2.5"]),
             (initialize(protocol=None, model="tank"), "protocol", ["no version"]),
             (oscillator(parameters={**own, "mass": number(1.0)}), "parameters.mass", ["m, c, d, x0"]),
             (oscillator(parameters={**own, "m": number(-1.25)}), "parameters.m", ["-1.25", "greater than 0"]),
@@ -86,7 +87,7 @@ class Initializing(WorkerTest):
         ):
             with self.subTest(field=field, words=words):
                 self.assert_misuse(field, lambda request=request: self.peer.call("Initialize", request), *words)
-        self.assert_misuse("instance", lambda: self.peer.call("Step", pb.StepRequest(instance=5)), "0x5", "Initialize")
+        self.assert_no_instance(lambda: self.peer.call("Step", pb.StepRequest(instance=5)), 5)
         self.assertEqual(len(self.peer.call("ListInstances", pb.ListInstancesRequest()).instances), 0)
 
     def test_defaults_and_tolerances(self):
@@ -109,5 +110,5 @@ class Initializing(WorkerTest):
         driver = self.drive()
         for _ in range(2):
             self.assertEqual(self.peer.call("Terminate", pb.TerminateRequest(instance=5)).instance, 5)
-        self.assert_misuse("instance", lambda: driver.step(0.0, 0.3, *RAMP), "0x5")
-        self.assert_misuse("instance", driver.exchange, "0x5")
+        self.assert_no_instance(lambda: driver.step(0.0, 0.3, *RAMP), 5)
+        self.assert_no_instance(driver.exchange, 5)

@@ -34,6 +34,7 @@ class Body(Subsystem):
         solvers=[Solver("RK67", options=OPTIONS), Solver("RK44", options=OPTIONS)],
         markers=MARKERS,
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

@@ -138,6 +138,7 @@ def mechanism(file):
         parameters=parameters,
         markers=markers,
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
     return type("Model", (Mechanism,), {"description": description, "compiled": model})
 

@@ -59,6 +59,8 @@ def beam(setup):
     stiffness = elasticity * section * radius**2 / 4 * bending.assemble(basis).toarray()[np.ix_(free, free)]
     mass = density * section * inertia.assemble(basis).toarray()[np.ix_(free, free)]
     squares, vectors = scipy.linalg.eigh(stiffness, mass, subset_by_index=[0, modes - 1])
+    # A mode has either sign; a state that leaves its process is only understood where all choose the same.
+    vectors *= np.sign(vectors[-2])
     whole = np.zeros((basis.N, modes))
     whole[free] = vectors
     shapes = np.stack([np.ravel(basis.interpolate(vector)) for vector in whole.T], axis=1)

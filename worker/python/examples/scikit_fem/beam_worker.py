@@ -27,6 +27,7 @@ class WallBeam(Subsystem):
         parameters=PARAMETERS,
         markers=[TIP],
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

@@ -28,6 +28,7 @@ class Finger(Subsystem):
         solvers=[RK4],
         markers=[ROOT, TIP],
         repeats_step_sequence=True,
+        exportable_snapshot=True,
     )
 
     def __init__(self, setup):

@@ -22,7 +22,8 @@ class Description:
     """What masters are told about a model.
 
     `states` says which output is set by which parameter at the start, for masters that look at the state of a model.
-    `max_input_degree` is the highest degree of an input polynomial that the solver takes.
+    `exportable_snapshot`: another process can go on from what `save` gives, and all of it is of the types that the module
+    `encoding` lists. `max_input_degree` is the highest degree of an input polynomial that the solver takes.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Description:
     repeats_step_sequence: bool = False
     directional_derivatives: bool = False
     joint_loads: bool = False
+    exportable_snapshot: bool = False
 
     def __post_init__(self) -> None:
         """Refuses a description that contradicts itself."""
@@ -79,6 +81,7 @@ class Description:
                 joint_loads=self.joint_loads,
                 directional_derivatives=self.directional_derivatives,
                 interior_outputs=True,
+                exportable_snapshot=self.exportable_snapshot,
             ),
         )
 

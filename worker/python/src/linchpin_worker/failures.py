@@ -34,6 +34,14 @@ class CallFailed(Exception):
         self.failure = failure
 
 
+class NoInstance(CallFailed):
+    """There is no such instance here, or not any more: the master has to make it anew."""
+
+    def __init__(self, instance: int) -> None:
+        text = f"there is no instance {instance:#x} here; Initialize makes one"
+        super().__init__(pb.Failure(severity=pb.SEVERITY_MISUSE, message=text, field="instance"))
+
+
 def misuse(field: str, message: str) -> CallFailed:
     """The request was wrong: `field` is what must change."""
     return CallFailed(pb.Failure(severity=pb.SEVERITY_MISUSE, message=message, field=field))

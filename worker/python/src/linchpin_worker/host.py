@@ -5,12 +5,11 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any, TypeVar
 
 from ._contract import worker_pb2 as pb
 from .description import Description, DescriptionError
-from .failures import CallFailed, Refused, fatal, misuse
+from .failures import CallFailed, NoInstance, Refused, fatal, misuse
 from .hold import Hold
 from .instance import Instance
 from .joint_load_request import joint_loads_of
@@ -20,9 +19,10 @@ from .signals import Signals
 from .slot import Slot
 from .solver import guarded
 from .subsystem import Subsystem, check_model
+from .version import PROGRAM, own_version
 
 Made = TypeVar("Made")
-Reply = TypeVar("Reply", pb.SnapshotReply, pb.RestoreReply, pb.StepReply, pb.PerturbedStepReply)
+Reply = TypeVar("Reply", pb.SnapshotReply, pb.RestoreReply, pb.ImportStateReply, pb.StepReply, pb.PerturbedStepReply)
 
 PROTOCOL = pb.ProtocolVersion(major=1, minor=4)
 
@@ -69,7 +69,7 @@ class Host:
         else:
             descriptions = [model.description for model in self._models.values()]
         models = [description.message() for description in descriptions]
-        return pb.DescribeReply(protocol=PROTOCOL, worker="linchpin-worker", worker_version=own_version(), models=models)
+        return pb.DescribeReply(protocol=PROTOCOL, worker=PROGRAM, worker_version=own_version(), models=models)
 
     def initialize(self, request: pb.InitializeRequest) -> pb.InitializeReply:
         """Makes an instance."""
@@ -87,6 +87,16 @@ class Host:
     def restore(self, request: pb.RestoreRequest) -> pb.RestoreReply:
         """Goes back to a kept state."""
         return labelled(self._slot(request).call(lambda instance: instance.restore(request)), request)
+
+    def export_state(self, request: pb.ExportStateRequest) -> pb.ExportStateReply:
+        """The committed state as bytes."""
+        reply = self._slot(request).call(lambda instance: instance.export_state())
+        reply.instance = request.instance
+        return reply
+
+    def import_state(self, request: pb.ImportStateRequest) -> pb.ImportStateReply:
+        """Goes to a state that another instance has exported."""
+        return labelled(self._slot(request).call(lambda instance: instance.import_state(request)), request)
 
     def step(self, request: pb.StepRequest) -> pb.StepReply:
         """Integrates over one macro step."""
@@ -134,7 +144,7 @@ class Host:
     def _slot(self, request: Any) -> Slot:
         slot = self._slots.get(request.instance)
         if slot is None:
-            raise misuse("instance", f"there is no instance {request.instance:#x} here; Initialize makes one")
+            raise NoInstance(request.instance)
         return slot
 
     def _described(self, name: str, parameters: Mapping[str, pb.Value]) -> Description:
@@ -210,11 +220,3 @@ def shown(request: pb.InitializeRequest) -> str:
     if not request.HasField("protocol"):
         return "no version at all"
     return f"{request.protocol.major}.{request.protocol.minor}"
-
-
-def own_version() -> str:
-    """Version of this package; "unknown" where it is not installed but found by its path."""
-    try:
-        return version("linchpin-worker")
-    except PackageNotFoundError:
-        return "unknown"

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from ._contract import worker_pb2 as pb
 from .description import Description
 from .exchange import exchange
+from .exported import opened, sealed
 from .failures import CallFailed, fatal, misuse
 from .interval import interval_of_step
 from .motion import Base, Motion
@@ -43,8 +44,8 @@ class Meter:
 class Instance:
     """A subsystem that is being driven by a master.
 
-    It has one state: that of the start, of the last Step or Restore, or of the last advance of an exchange, which can be
-    taken back. A call that fails leaves it as it was.
+    It has one state: that of the start, of the last Step, Restore or ImportState, or of the last advance of an exchange, which
+    can be taken back. A call that fails leaves it as it was.
     """
 
     def __init__(
@@ -57,6 +58,10 @@ class Instance:
     ) -> None:
         self._motion = Motion(subsystem, signals, description, request)
         self._snapshots = Snapshots(most_snapshots)
+        self._description = description
+        if description.exportable_snapshot:
+            # A state that cannot leave is a mistake of the model: better told now than where it is needed.
+            self._motion.export()
         self.tolerance = subsystem.tolerance
         self._sequence = request.sequence
         # The last request with a sequence number, the name of its call, and the answer: given again when it is repeated.
@@ -86,6 +91,21 @@ class Instance:
             return pb.RestoreReply()
 
         return self._once("Restore", request, go_back)
+
+    def export_state(self) -> pb.ExportStateReply:
+        """The committed state as bytes; it has no sequence number."""
+        self._check_exports()
+        return pb.ExportStateReply(state=sealed(self._description.name, self._motion.export()))
+
+    def import_state(self, request: pb.ImportStateRequest) -> pb.ImportStateReply:
+        """Goes to a state that another instance has exported."""
+
+        def take() -> pb.ImportStateReply:
+            self._check_exports()
+            self._motion.take_exported(opened(self._description.name, request))
+            return pb.ImportStateReply()
+
+        return self._once("ImportState", request, take)
 
     def step(self, request: pb.StepRequest) -> pb.StepReply:
         """Integrates over one macro step and commits."""
@@ -127,6 +147,11 @@ class Instance:
     def evaluate(self, request: pb.EvaluateRequest) -> pb.EvaluateReply:
         """Outputs of the present state; it has no sequence number."""
         return self._motion.evaluate(request)
+
+    def _check_exports(self) -> None:
+        if not self._description.exportable_snapshot:
+            text = f'the states of model "{self._description.name}" cannot leave their process'
+            raise misuse("state", f"{text}: its capabilities do not say exportable_snapshot")
 
     def _once(self, call: str, request: Any, act: Callable[[], Reply]) -> Reply:
         """The answer to a call with a sequence number: a repeated number gets the first answer again."""

@@ -8,13 +8,14 @@ from enum import Enum
 
 from ._contract import worker_pb2 as pb
 from .description import Description
-from .failures import misuse
+from .encoding import Damaged, NotPortable, decode, encode
+from .failures import fatal, misuse
 from .inputs import Inputs
 from .interval import Interval, Part, check_inside, check_integrals, parts
 from .readable import number
 from .signals import Signals, find
 from .solver import Solver
-from .state import Kept
+from .state import Kept, State
 from .subsystem import Subsystem
 
 NOTHING_TO_TAKE_BACK = (
@@ -89,6 +90,21 @@ class Motion:
         """Makes `kept` the committed state."""
         self.solver.go_to(kept)
         self.committed, self._previous = kept, None
+
+    def export(self) -> bytes:
+        """The committed state as bytes."""
+        try:
+            return encode(self.committed.state.value())
+        except NotPortable as error:
+            raise fatal(f'the state of model "{self._description.name}" cannot leave its process: {error}') from error
+
+    def take_exported(self, encoded: bytes) -> None:
+        """Makes a state that another instance has exported the committed one."""
+        try:
+            state = State(decode(encoded))
+        except Damaged as damaged:
+            raise misuse("state", f"these {len(encoded)} bytes are no state: {damaged}") from damaged
+        self.restore(self.solver.numbered(state))
 
     def look_ahead(
         self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]

@@ -15,7 +15,7 @@ import grpc
 from ._contract import wire_pb2
 from ._contract import worker_pb2 as pb
 from .address import Address, ListenError
-from .failures import CallFailed
+from .failures import CallFailed, NoInstance
 from .hold import Hold, connection
 from .host import Host
 from .status import abort
@@ -39,6 +39,8 @@ UNARY: dict[str, Callable[[Host, Any], Any]] = {
     "Initialize": Host.initialize,
     "Snapshot": Host.snapshot,
     "Restore": Host.restore,
+    "ExportState": Host.export_state,
+    "ImportState": Host.import_state,
     "Step": Host.step,
     "PerturbedStep": Host.perturbed_step,
     "Evaluate": Host.evaluate,
@@ -107,13 +109,13 @@ class Server:
         try:
             return call(self._host, request)
         except CallFailed as failed:
-            return abort(context, failed.failure)
+            return abort(context, failed)
         finally:
             if "instance" in request.DESCRIPTOR.fields_by_name:
                 self._host.hold(request.instance, connection(context.peer(), self.address.path))
 
     def _exchange(self, requests: Iterator[pb.ExchangeRequest], context: grpc.ServicerContext) -> Iterator[pb.ExchangeReply]:
-        """The turns of a stream, which holds its instance from the first turn on."""
+        """The turns of a stream, which holds its instance from the first turn on, and ends where it is not there."""
         stream, held = Hold(is_stream=True), None
         if not context.add_callback(stream.end):
             return
@@ -123,6 +125,8 @@ class Server:
                 held = request.instance
             try:
                 yield self._host.exchange(request)
+            except NoInstance as failed:
+                abort(context, failed)
             except CallFailed as failed:
                 yield pb.ExchangeReply(sequence=request.sequence, instance=held, failure=failed.failure)
 

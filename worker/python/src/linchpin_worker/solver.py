@@ -48,6 +48,10 @@ class Solver:
         """The present state, for a step that is under way."""
         return guarded(None, lambda: State(self._subsystem.save()))
 
+    def numbered(self, state: State) -> Kept:
+        """A state that the solver did not reach itself."""
+        return Kept(next(self._numbers), state)
+
     def go_to(self, kept: Kept) -> None:
         """Goes to a state, unless the solver is there."""
         if self._stands_at != kept.number:

@@ -4,6 +4,7 @@ import grpc
 
 from ._contract import wire_pb2
 from ._contract import worker_pb2 as pb
+from .failures import CallFailed, NoInstance
 
 DOMAIN = "linchpin"
 
@@ -19,9 +20,11 @@ LONGEST_MESSAGE = 2048
 LONGEST_TEXT = 256
 
 
-def abort(context: grpc.ServicerContext, failure: pb.Failure) -> None:
-    """Ends a call with the status of `failure`."""
-    code, message = CODES[failure.severity], shortened(failure.message, LONGEST_MESSAGE)
+def abort(context: grpc.ServicerContext, failed: CallFailed) -> None:
+    """Ends a call with the status of its failure."""
+    failure = failed.failure
+    code = grpc.StatusCode.NOT_FOUND if isinstance(failed, NoInstance) else CODES[failure.severity]
+    message = shortened(failure.message, LONGEST_MESSAGE)
     details = wire_pb2.Status(code=code.value[0], message=message, details=[error_info(failure)])
     context.set_trailing_metadata([("grpc-status-details-bin", details.SerializeToString())])
     context.abort(code, message)

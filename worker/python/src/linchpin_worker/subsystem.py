@@ -48,6 +48,9 @@ class Subsystem:
     def save(self) -> Any:
         """The whole state: bytes, a tuple of numbers, or anything that pickle takes.
 
+        Where the description says `exportable_snapshot` it is made of None, bool, int, float, str, bytes, tuple, list, dict,
+        and arrays and scalars of NumPy that are numbers or bool.
+
         Nothing that decides about a step may be missing. It is copied, so arrays that the solver changes in place may be
         given as they are.
         """

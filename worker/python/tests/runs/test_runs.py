@@ -81,4 +81,4 @@ class Runs(unittest.TestCase):
         scenes = "".join(file.read_text() for file in EXAMPLES.glob("*.toml"))
         for file in EXAMPLES.glob("*.py"):
             self.assertIn(file.name, scenes)
-        self.assertLess(len(pathlib.Path(EXAMPLES, "oscillator.py").read_text().splitlines()), 45)
+        self.assertLess(len(pathlib.Path(EXAMPLES, "oscillator.py").read_text().splitlines()), 46)

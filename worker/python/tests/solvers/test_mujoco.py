@@ -9,6 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 from solvers import EXAMPLES, assert_rates, example, inputs, made, needed
 
+from linchpin_worker.encoding import decode, encode
+
 # A ball that falls on a plane and rolls against a cart that a motor drives: contacts, friction, an activation, a limit.
 ROUGH = """
 <mujoco>
@@ -85,7 +87,7 @@ class Model(unittest.TestCase):
             # Also in an instance that has gone another way.
             for other in (body, made(model, turn=1.0)):
                 other.advance(0.0, 0.05, inputs(model, 0.05))
-                other.load(kept)
+                other.load(decode(encode(kept)))
                 for step, row in zip(range(20, 30), expected, strict=True):
                     other.advance(0.02 * step, 0.02, load)
                     self.assertEqual(other.outputs(0.02 * (step + 1), load.at_end), row)

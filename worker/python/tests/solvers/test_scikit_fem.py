@@ -6,6 +6,7 @@ import unittest
 from solvers import example, inputs, made, needed
 
 from linchpin_worker import Refused
+from linchpin_worker.encoding import decode, encode
 
 BEAM = {"length": 0.7, "radius": 0.01, "elasticity": 3e9, "density": 1200.0}
 STIFFNESS = 3e9 * math.pi * 0.01**4 / 4
@@ -58,7 +59,7 @@ class Model(unittest.TestCase):
         beam.advance(0.0, 0.02, load)
         kept, expected = beam.save(), None
         for other in (beam, beam, made(self.model, **BEAM)):
-            other.load(kept)
+            other.load(decode(encode(kept)))
             other.advance(0.02, 0.02, load)
             expected = expected or other.outputs(0.04, load.at_end)
             self.assertEqual(other.outputs(0.04, load.at_end), expected)

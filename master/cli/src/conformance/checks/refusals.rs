@@ -87,6 +87,8 @@ fn weigh(
                 verdict.find(Grade::Warn, format!("{what}: refused without a message"));
             }
         }
+        // A refusal with a status of its own.
+        Err(CallError::NoInstance { .. }) => {}
         Err(error) => return Err(error.into()),
     }
     Ok(())
