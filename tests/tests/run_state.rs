@@ -12,6 +12,8 @@ const OSCILLATOR: &str = include_str!("../../scenes/oscillator.toml");
 const DOUBLE_PENDULUM: &str = include_str!("../../scenes/double-pendulum.toml");
 const GIMBAL: &str = include_str!("../../scenes/spatial/gimbal.toml");
 const LOAD_STEP: &str = include_str!("../../scenes/hard/load-step.toml");
+const STOP: &str = include_str!("../../scenes/double-pendulum-stop.toml");
+const SPLIT: &str = include_str!("../../scenes/s2/split-slider-crank.toml");
 const MOTOR: &str = include_str!("../../scenes/motor/slider-crank.toml");
 
 fn scene(text: &str, settings: &[&str]) -> Scene {
@@ -228,6 +230,13 @@ fn a_run_with_jumps_and_one_with_signals_go_on_bit_by_bit() {
         assert_resumes("load step", &scene(LOAD_STEP, &[&degree]));
     }
     assert_resumes("motor", &scene(MOTOR, &["scene.t_end=0.05"]));
+}
+
+/// Impacts that partners take part in, with steps that are equal and steps that vary.
+#[test]
+fn impacts_across_joints_go_on() {
+    assert_resumes("stop", &scene(STOP, &[]));
+    assert_resumes("split slider-crank", &scene(SPLIT, &["scene.t_end=0.006"]));
 }
 
 #[test]

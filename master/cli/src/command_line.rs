@@ -5,8 +5,7 @@ use tracing::level_filters::LevelFilter;
 
 use crate::commands::{
     CommandError, check, completions, conformance, converge, describe, diff, export, graph, health,
-    init,
-    instances, man, models, plot, report, run, spectrum, stability, worker,
+    init, instances, man, models, plot, report, run, spectrum, stability, worker,
 };
 use crate::log::Filter;
 use crate::version::LONG;

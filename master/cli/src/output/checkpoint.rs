@@ -12,6 +12,7 @@ use linchpin_master::run::checkpoint::Checkpoint;
 use serde::{Deserialize, Serialize};
 
 use crate::commands::common::warn;
+use crate::results::Rejections;
 
 const NEWEST: &str = "checkpoint";
 const PREVIOUS: &str = "checkpoint.previous";
@@ -32,6 +33,8 @@ pub struct CheckpointFile {
     pub run: RunIdentity,
     /// Bytes of the table of results up to there.
     pub table_bytes: u64,
+    /// The macro steps that were repeated up to there.
+    pub rejections: Rejections,
     /// The run itself.
     pub checkpoint: Checkpoint,
 }

@@ -7,6 +7,7 @@ use linchpin_master::RunError;
 use linchpin_master::run::checkpoint::Checkpoint;
 use linchpin_master::scene::RunSettings;
 
+use super::Rejections;
 use crate::commands::common::warn;
 use crate::output::checkpoint::{CheckpointFile, RunIdentity};
 
@@ -54,8 +55,13 @@ impl Checkpoints {
             }
     }
 
-    /// Writes one at `t`, when the table has `table_bytes`. Without it the run goes on, and the one before still serves.
-    pub fn write(&mut self, t: f64, table_bytes: u64, checkpoint: Result<Checkpoint, RunError>) {
+    /// Writes one at `t`, when the table has `table_bytes` and so many steps were repeated. Without it the run goes on, and the one before still serves.
+    pub fn write(
+        &mut self,
+        t: f64,
+        (table_bytes, rejections): (u64, &Rejections),
+        checkpoint: Result<Checkpoint, RunError>,
+    ) {
         let checkpoint = match checkpoint {
             Ok(checkpoint) => checkpoint,
             // A worker that is lost is replaced in the next macro step, behind which another one is due.
@@ -73,6 +79,7 @@ impl Checkpoints {
             t,
             run: self.run.clone(),
             table_bytes,
+            rejections: rejections.clone(),
             checkpoint,
         };
         if let Err(error) = file.write(&self.folder) {

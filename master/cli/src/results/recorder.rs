@@ -133,6 +133,9 @@ impl RunRecorder {
         if let Some(resumed) = self.resumed.take() {
             let recorded = recorded_rows(&path, resumed.table_bytes)?;
             recorded.iter().for_each(|values| self.remember(values));
+            if let Some(recording) = &mut self.recording {
+                recording.rejections = resumed.rejections;
+            }
             self.table = Some(Table::go_on(&path, resumed.table_bytes)?);
             return Ok(());
         }
@@ -203,9 +206,9 @@ impl Recorder for RunRecorder {
         t: f64,
         checkpoint: Result<Checkpoint, RunError>,
     ) -> Result<(), CommandError> {
-        if let Some(table) = &self.table {
-            let bytes = table.sync()?;
-            self.checkpoints.write(t, bytes, checkpoint);
+        if let (Some(table), Some(recording)) = (&self.table, &self.recording) {
+            let results = (table.sync()?, &recording.rejections);
+            self.checkpoints.write(t, results, checkpoint);
         }
         Ok(())
     }

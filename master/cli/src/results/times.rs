@@ -1,5 +1,7 @@
 //! When impacts happened and macro steps were repeated, as far as the results tell.
 
+use serde::{Deserialize, Serialize};
+
 use super::ReportedColumn;
 
 /// Outputs of a subsystem with this name count its impacts in the last macro step.
@@ -12,7 +14,7 @@ const TIME: &str = ".impact_time";
 const PARTS: usize = 4096;
 
 /// Times in bounded memory.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Times {
     span: (f64, f64),
     /// The first one in each part of the run.
@@ -81,7 +83,7 @@ impl Impacts {
 }
 
 /// Ends of macro steps that were repeated with a shorter one before, in bounded memory.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Rejections {
     counted: u64,
     times: Times,
