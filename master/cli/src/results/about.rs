@@ -124,7 +124,7 @@ fn settings(scene: &Scene) -> Option<Settings> {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// A column that is drawn.

@@ -1,6 +1,6 @@
 //! What a run leaves behind: table, report, picture; and what is read back of them.
 
-mod about;
+pub(crate) mod about;
 mod checkpoints;
 mod figure;
 mod panels;
