@@ -39,6 +39,7 @@ pub struct Integrator {
     before_impact: Vec<f64>,
     /// Accelerations before the inputs jumped.
     before_jump: Vec<f64>,
+    forces_before_jump: Vec<f64>,
     /// Whether the last step was corrected.
     was_corrected: bool,
     /// Power that friction takes at the start of the step (W).
@@ -75,6 +76,7 @@ impl Integrator {
             pending_next: vec![false; contacts],
             before_impact: vec![0.0; q.len()],
             before_jump: vec![0.0; q.len()],
+            forces_before_jump: vec![0.0; mechanics.rows()],
             was_corrected: false,
             friction_power: 0.0,
             growth: Growth::default(),
@@ -244,8 +246,11 @@ impl Integrator {
     pub fn pass_jump(&mut self, before: Drive<'_>, behind: Drive<'_>) -> Result<(), StepError> {
         self.accelerations(before)?;
         self.before_jump.copy_from_slice(&self.next.a);
+        self.forces_before_jump.copy_from_slice(&self.next.forces);
         self.accelerations(behind)?;
-        self.state.forces.copy_from_slice(&self.next.forces);
+        let forces = &mut self.state.forces;
+        add_scaled(-1.0, &self.forces_before_jump, forces);
+        add_scaled(1.0, &self.next.forces, forces);
         for own in [&mut self.state.a, &mut self.state.auxiliary] {
             add_scaled(-1.0, &self.before_jump, own);
             add_scaled(1.0, &self.next.a, own);
