@@ -18,6 +18,16 @@ pub struct Impact {
     pub multipliers: Vec<f64>,
 }
 
+impl Impact {
+    /// Takes over all values of another one, in memory that is already there.
+    pub fn take(&mut self, other: &Self) {
+        self.at = other.at;
+        self.contacts.clone_from(&other.contacts);
+        self.loads.clone_from(&other.loads);
+        self.multipliers.clone_from(&other.multipliers);
+    }
+}
+
 /// How the partners of a subsystem take part in its impacts.
 ///
 /// For every multiplier `r` of the joints there is a row. A unit of its impulse loads the inputs with `d_r` and the

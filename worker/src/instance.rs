@@ -31,6 +31,8 @@ pub struct Instance {
     asked: Vec<u8>,
     answer: Answer,
     exchanged: v1::ExchangeReply,
+    /// Memory of answers with more impacts.
+    spare: Vec<v1::Impact>,
 }
 
 /// The answer to the last sequence number, given again when the number is repeated.
@@ -69,6 +71,7 @@ impl Instance {
             asked: Vec::new(),
             answer: Answer::Initialize,
             exchanged: v1::ExchangeReply::default(),
+            spare: Vec::new(),
         })
     }
 
@@ -208,11 +211,13 @@ impl Instance {
             &mut outputs.values,
         )?;
         meter.look_at_contacts(&self.motion);
+        let mut impacts = None;
+        self.motion.tell_impacts(&request.instants, &mut impacts);
         self.motion.commit();
         Ok(v1::StepReply {
             outputs: Some(outputs),
             work: Some(meter.stop(&self.motion)),
-            impacts: self.motion.found_impacts(&request.instants),
+            impacts,
             ..v1::StepReply::default()
         })
     }

@@ -37,6 +37,9 @@ pub struct Integrator {
     pending_next: Vec<bool>,
     /// Velocities before the impulses of the last correction.
     before_impact: Vec<f64>,
+    /// Accelerations before the inputs jumped.
+    before_jump: Vec<f64>,
+    forces_before_jump: Vec<f64>,
     /// Whether the last step was corrected.
     was_corrected: bool,
     /// Power that friction takes at the start of the step (W).
@@ -72,6 +75,8 @@ impl Integrator {
             pending: vec![false; contacts],
             pending_next: vec![false; contacts],
             before_impact: vec![0.0; q.len()],
+            before_jump: vec![0.0; q.len()],
+            forces_before_jump: vec![0.0; mechanics.rows()],
             was_corrected: false,
             friction_power: 0.0,
             growth: Growth::default(),
@@ -239,14 +244,16 @@ impl Integrator {
     /// # Errors
     /// [`StepError`].
     pub fn pass_jump(&mut self, before: Drive<'_>, behind: Drive<'_>) -> Result<(), StepError> {
-        let mut jump = self.accelerations(before)?.to_vec();
+        self.accelerations(before)?;
+        self.before_jump.copy_from_slice(&self.next.a);
+        self.forces_before_jump.copy_from_slice(&self.next.forces);
         self.accelerations(behind)?;
-        for (jump, behind) in jump.iter_mut().zip(&self.next.a) {
-            *jump = behind - *jump;
-        }
-        self.state.forces.copy_from_slice(&self.next.forces);
+        let forces = &mut self.state.forces;
+        add_scaled(-1.0, &self.forces_before_jump, forces);
+        add_scaled(1.0, &self.next.forces, forces);
         for own in [&mut self.state.a, &mut self.state.auxiliary] {
-            add_scaled(1.0, &jump, own);
+            add_scaled(-1.0, &self.before_jump, own);
+            add_scaled(1.0, &self.next.a, own);
         }
         self.friction_power = self.friction_power_of_next();
         Ok(())

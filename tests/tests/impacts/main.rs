@@ -17,7 +17,7 @@ const SPLIT: &str = include_str!("../../../scenes/s2/split-slider-crank.toml");
 /// The same with the numbers of Table 2.
 const DRIVEN: &str = include_str!("../../../scenes/s2/split-slider-crank-torque.toml");
 const WHOLE: &str = include_str!("../../../scenes/s2/slider-crank.toml");
-const PENDULUM: &str = include_str!("../../../scenes/double-pendulum-stop.toml");
+const PENDULUM: &str = include_str!("../../../scenes/s2/double-pendulum-stop.toml");
 
 fn scene(text: &str, overrides: &[&str]) -> Scene {
     let overrides: Vec<Override> = overrides.iter().map(|own| own.parse().unwrap()).collect();

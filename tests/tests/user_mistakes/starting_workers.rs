@@ -120,10 +120,10 @@ fn a_worker_of_another_protocol() {
     let setting = format!("subsystem.mass2.address={address}");
     workshop
         .run(&run(&["--set", &setting]))
-        .fails(1, &["mass2", "speaks linchpin 1.3", "speaks 2.0"]);
+        .fails(1, &["mass2", "speaks linchpin 1.4", "speaks 2.0"]);
     let described = workshop.run(&["describe", address]);
     described
-        .fails(1, &[address, "speaks linchpin 1.3", "speaks 2.0"])
+        .fails(1, &[address, "speaks linchpin 1.4", "speaks 2.0"])
         .prints(&["protocol linchpin 2.0"]);
 }
 

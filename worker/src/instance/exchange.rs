@@ -3,6 +3,7 @@
 use linchpin_proto::exchange::{check_evaluation, check_samples};
 use linchpin_proto::v1::{self, Failure};
 
+use super::motion::resize;
 use super::{Answer, Base, Horizon, Inside, Instance, Meter, Sequence, interval};
 use crate::Interval;
 
@@ -17,7 +18,7 @@ impl Instance {
             return match &self.answer {
                 Answer::Exchange(answer) => {
                     self.same("Exchange", request)?;
-                    copy(&self.exchanged, reply);
+                    copy(&self.exchanged, reply, &mut self.spare);
                     answer.clone()
                 }
                 other => Err(other.belongs_not_to("Exchange")),
@@ -25,7 +26,7 @@ impl Instance {
         }
         let answer = self.turn(request, reply);
         if answer.is_ok() {
-            copy(reply, &mut self.exchanged);
+            copy(reply, &mut self.exchanged, &mut self.spare);
         }
         self.settle(request, Answer::Exchange(answer.clone()));
         answer
@@ -84,13 +85,16 @@ impl Instance {
             perturbed: &mut reply.perturbed,
             derivatives: &mut reply.derivatives,
         };
-        reply.impacts = None;
         match &request.predict {
             Some(predict) => {
                 self.look_ahead(base, predict, predicted)?;
-                reply.impacts = self.motion.found_impacts(&predict.instants);
+                self.motion
+                    .tell_impacts(&predict.instants, &mut reply.impacts);
             }
-            None => predicted.clear(),
+            None => {
+                predicted.clear();
+                reply.impacts = None;
+            }
         }
         if base == Base::Advanced {
             self.motion.commit();
@@ -194,7 +198,7 @@ impl Horizon {
 }
 
 /// Copies an answer into memory that is already there.
-fn copy(from: &v1::ExchangeReply, to: &mut v1::ExchangeReply) {
+fn copy(from: &v1::ExchangeReply, to: &mut v1::ExchangeReply, spare: &mut Vec<v1::Impact>) {
     (to.sequence, to.instance) = (from.sequence, from.instance);
     for (from, to) in [
         (&from.advanced, &mut to.advanced),
@@ -216,8 +220,26 @@ fn copy(from: &v1::ExchangeReply, to: &mut v1::ExchangeReply) {
         }
     }
     to.work = from.work;
-    to.impacts.clone_from(&from.impacts);
+    copy_impacts(from.impacts.as_ref(), &mut to.impacts, spare);
     to.failure = None;
+}
+
+fn copy_impacts(
+    from: Option<&v1::Impacts>,
+    to: &mut Option<v1::Impacts>,
+    spare: &mut Vec<v1::Impact>,
+) {
+    let Some(from) = from else {
+        *to = None;
+        return;
+    };
+    let to = &mut to.get_or_insert_default().impacts;
+    resize(to, from.impacts.len(), spare);
+    for (from, to) in from.impacts.iter().zip(to) {
+        to.at = from.at;
+        to.contacts.clone_from(&from.contacts);
+        to.multipliers.clone_from(&from.multipliers);
+    }
 }
 
 fn copy_outputs(from: Option<&v1::Outputs>, to: &mut Option<v1::Outputs>) {

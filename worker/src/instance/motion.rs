@@ -15,6 +15,7 @@ use crate::{Inputs, Interval, Snapshot, StepFailure, Subsystem};
 use impacts::Treated;
 use integrals::Integrated;
 
+pub(super) use impacts::resize;
 pub(super) use look_ahead::{Horizon, Sequence};
 pub(super) use meter::Meter;
 

@@ -6,6 +6,9 @@ use linchpin_worker::{Impact, Impacts, StepFailure};
 use crate::nonsmooth::mixed::{Collision, Collisions, Integrator};
 use crate::nonsmooth::partners::Partners;
 
+/// Impacts of a macro step for which there is memory from the start.
+const PREPARED: usize = 8;
+
 /// Whose closing and colliding a step has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pace {
@@ -41,6 +44,8 @@ pub struct Collided {
     /// The impacts of the last step that was not repeated.
     noted: Vec<Noted>,
     found: Vec<Impact>,
+    /// Memory of those of earlier steps.
+    spare: (Vec<Noted>, Vec<Impact>),
     /// The contacts that were active in it, internal step by internal step.
     active: Vec<bool>,
     /// Number of impacts so far in the present step.
@@ -50,13 +55,26 @@ pub struct Collided {
 impl Collided {
     /// For that many contacts.
     pub fn new(contacts: usize, is_impulsive: bool) -> Self {
+        let impact = || Impact {
+            contacts: Vec::with_capacity(contacts),
+            ..Impact::default()
+        };
+        let noted = || Noted {
+            part: None,
+            contacts: Vec::with_capacity(contacts),
+            impact: impact(),
+        };
         Self {
             contacts,
             is_impulsive,
             treatment: Treatment::Found(None),
             pace: Pace::Own,
-            noted: Vec::new(),
-            found: Vec::new(),
+            noted: Vec::with_capacity(PREPARED),
+            found: Vec::with_capacity(PREPARED),
+            spare: (
+                (0..PREPARED).map(|_| noted()).collect(),
+                (0..PREPARED).map(|_| impact()).collect(),
+            ),
             active: Vec::new(),
             done: 0,
         }
@@ -115,8 +133,8 @@ impl Collided {
         };
         self.done = 0;
         if self.pace == Pace::Own {
-            self.noted.clear();
-            self.found.clear();
+            self.spare.0.append(&mut self.noted);
+            self.spare.1.append(&mut self.found);
             self.active.clear();
             self.active.resize(parts * self.contacts, false);
         }
@@ -176,32 +194,33 @@ impl Collided {
         if self.pace == Pace::Repeated {
             return;
         }
-        let noted = match &self.treatment {
-            Treatment::Given(given) => Noted {
-                part,
-                ..given[done].clone()
-            },
+        let mut noted = self.spare.0.pop().unwrap_or_default();
+        noted.part = part;
+        match &self.treatment {
+            Treatment::Given(given) => {
+                noted.contacts.clone_from(&given[done].contacts);
+                noted.impact.take(&given[done].impact);
+            }
             Treatment::Found(partners) => {
-                let contacts = integrator.collided().to_vec();
-                let numbers = contacts.iter().enumerate();
-                let (multipliers, loads) = match partners {
-                    Some(partners) => (partners.impulses().to_vec(), partners.loads()),
-                    None => (Vec::new(), Vec::new()),
-                };
-                let impact = Impact {
-                    at,
-                    contacts: numbers.filter(|(_, own)| **own).map(|(n, _)| n).collect(),
-                    loads,
-                    multipliers,
-                };
-                Noted {
-                    part,
-                    contacts,
-                    impact,
+                let contacts = integrator.collided();
+                noted.contacts.clear();
+                noted.contacts.extend_from_slice(contacts);
+                let impact = &mut noted.impact;
+                impact.at = at;
+                impact.contacts.clear();
+                let numbers = (0..contacts.len()).filter(|&number| contacts[number]);
+                impact.contacts.extend(numbers);
+                impact.loads.clear();
+                impact.multipliers.clear();
+                if let Some(partners) = partners {
+                    impact.loads.extend(partners.loads());
+                    impact.multipliers.extend_from_slice(partners.impulses());
                 }
             }
-        };
-        self.found.push(noted.impact.clone());
+        }
+        let mut found = self.spare.1.pop().unwrap_or_default();
+        found.take(&noted.impact);
+        self.found.push(found);
         self.noted.push(noted);
     }
 }

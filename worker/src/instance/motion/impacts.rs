@@ -18,6 +18,33 @@ pub(super) struct Treated {
     given: Option<Vec<Impact>>,
     /// Those that it has found in the parts of a step that is cut.
     found: Vec<Impact>,
+    /// Memory of answers with more impacts.
+    spare: Vec<v1::Impact>,
+}
+
+/// Impacts of a macro step, and contacts of an impact, for which there is memory from the first answer on.
+const PREPARED: usize = 8;
+
+/// Gives a list another length; what it does without keeps its memory in `spare`.
+pub(in crate::instance) fn resize(
+    list: &mut Vec<v1::Impact>,
+    length: usize,
+    spare: &mut Vec<v1::Impact>,
+) {
+    if list.capacity() == 0 {
+        list.reserve(PREPARED);
+        spare.extend((0..PREPARED).map(|_| v1::Impact {
+            contacts: Vec::with_capacity(PREPARED),
+            ..v1::Impact::default()
+        }));
+        spare.reserve(PREPARED);
+    }
+    while list.len() > length {
+        spare.extend(list.pop());
+    }
+    while list.len() < length {
+        list.push(spare.pop().unwrap_or_default());
+    }
 }
 
 impl Treated {
@@ -31,6 +58,7 @@ impl Treated {
             strikes: Vec::new(),
             given: None,
             found: Vec::new(),
+            spare: Vec::new(),
         }
     }
 }
@@ -130,25 +158,29 @@ impl Motion {
         !instants.is_empty() || self.is_struck()
     }
 
-    /// The impacts of the last step, cut at `instants` or not, as an answer tells them; `None` from a model that finds none.
-    pub(in crate::instance) fn found_impacts(&self, instants: &[f64]) -> Option<v1::Impacts> {
-        let tell = |impact: &Impact| v1::Impact {
-            at: impact.at,
-            contacts: impact
-                .contacts
-                .iter()
-                .map(|&number| number as u32)
-                .collect(),
-            loads: Vec::new(),
-            multipliers: impact.multipliers.clone(),
-        };
+    /// Tells the impacts of the last step, cut at `instants` or not; nothing of a model that finds none.
+    pub(in crate::instance) fn tell_impacts(
+        &mut self,
+        instants: &[f64],
+        into: &mut Option<v1::Impacts>,
+    ) {
+        if !self.treated.finds {
+            *into = None;
+            return;
+        }
         let found = match instants {
             [] => self.subsystem.impacts(),
             _ => &self.treated.found,
         };
-        self.treated.finds.then(|| v1::Impacts {
-            impacts: found.iter().map(tell).collect(),
-        })
+        let told = &mut into.get_or_insert_default().impacts;
+        resize(told, found.len(), &mut self.treated.spare);
+        for (told, impact) in told.iter_mut().zip(found) {
+            told.at = impact.at;
+            told.contacts.clear();
+            let contacts = impact.contacts.iter().map(|&number| number as u32);
+            told.contacts.extend(contacts);
+            told.multipliers.clone_from(&impact.multipliers);
+        }
     }
 
     /// Lets the velocities jump by these impulses, at the end of a part of a step.
