@@ -130,6 +130,29 @@ class Calling(WorkerTest):
         self.assert_misuse("directions", lambda: driver.evaluate("level", signals=[inflow], directions=[inflow]))
         self.assertEqual(driver.level, START)
 
+    def test_impacts_are_refused_wherever_a_request_has_them(self):
+        driver = self.drive()
+        step = {"t": 0.0, "step": 0.5, "signals": [constant(0, 1.0)]}
+        impacts = {"impacts": pb.Impacts(impacts=[pb.Impact(at=0.1)])}
+        for offered, fields in (
+            ("impulses", impacts),
+            ("impulses", {"impacts": pb.Impacts()}),
+            ("impacts", {"interface": pb.Interface(rows=1)}),
+            ("impacts", {**impacts, "interface": pb.Interface(rows=1)}),
+        ):
+            field, look = list(fields)[-1], pb.Predict(**step, **fields)
+            calls = [
+                lambda fields=fields: driver.call("Step", driver.request(pb.StepRequest, **step, **fields)),
+                lambda fields=fields: driver.call("PerturbedStep", driver.request(pb.PerturbedStepRequest, **step, **fields)),
+                lambda look=look: driver.exchange(predict=look),
+            ]
+            if "interface" not in fields:
+                advance = pb.Advance(**step, **fields)
+                calls.append(lambda advance=advance: driver.exchange(advance=advance))
+            for call in calls:
+                self.assert_misuse(field, call, f"do not say {offered}")
+        self.assertEqual(driver.level, START)
+
     def test_snapshots_have_a_limit_and_a_replaced_one_is_gone(self):
         peer = Peer(self, limits=Limits(snapshots=3))
         driver = Driver(peer, tank())

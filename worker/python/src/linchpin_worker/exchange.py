@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ._contract import worker_pb2 as pb
 from .failures import CallFailed
+from .impacts import refuse_impacts
 from .interval import Interval, check_inside, interval_of_evaluation, interval_of_look, interval_of_step
 from .motion import Base, Motion
 
@@ -46,6 +47,7 @@ def _advance_and_look_ahead(motion: Motion, request: pb.ExchangeRequest) -> pb.E
 def _advance(motion: Motion, advance: pb.Advance, reply: pb.ExchangeReply) -> None:
     interval = interval_of_step(advance.t, advance.step)
     check_inside("advance.samples", "sample", advance.samples, advance.step)
+    refuse_impacts(advance)
     motion.take(advance.signals, advance.integrals)
     reply.advanced.values.extend(motion.advance(interval, advance.instants, pb.OUTPUT_SET_ALL))
     for sample in advance.samples:
@@ -55,6 +57,7 @@ def _advance(motion: Motion, advance: pb.Advance, reply: pb.ExchangeReply) -> No
 def _look(
     motion: Motion, base: Base, look: pb.Predict, interval: Interval
 ) -> tuple[list[float], list[pb.Outputs], list[pb.Outputs]]:
+    refuse_impacts(look)
     motion.take(look.signals, look.integrals)
     values, perturbed = motion.look_ahead(base, interval, look.instants, look.perturbed)
     return values, perturbed, motion.look_in_directions(base, interval, look.instants, look.directions)

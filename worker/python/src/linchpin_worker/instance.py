@@ -11,6 +11,7 @@ from .description import Description
 from .exchange import exchange
 from .exported import opened, sealed
 from .failures import CallFailed, fatal, misuse
+from .impacts import refuse_impacts
 from .interval import interval_of_step
 from .motion import Base, Motion
 from .signals import Signals
@@ -113,6 +114,7 @@ class Instance:
         def step() -> pb.StepReply:
             meter = Meter(self._motion)
             interval = interval_of_step(request.t, request.step)
+            refuse_impacts(request)
             self._motion.take(request.signals, request.integrals)
             values = self._motion.advance(interval, request.instants, request.outputs)
             self._motion.commit()
@@ -126,6 +128,7 @@ class Instance:
         def step() -> pb.PerturbedStepReply:
             meter, motion = Meter(self._motion), self._motion
             interval = interval_of_step(request.t, request.step)
+            refuse_impacts(request)
             motion.take(request.signals, request.integrals)
             outputs = motion.look_ahead_perturbed(Base.COMMITTED, interval, request.instants, request.perturbed)
             derivatives = motion.look_in_directions(Base.COMMITTED, interval, request.instants, request.directions)
