@@ -12,7 +12,7 @@ const OSCILLATOR: &str = include_str!("../../scenes/oscillator.toml");
 const DOUBLE_PENDULUM: &str = include_str!("../../scenes/double-pendulum.toml");
 const GIMBAL: &str = include_str!("../../scenes/spatial/gimbal.toml");
 const LOAD_STEP: &str = include_str!("../../scenes/hard/load-step.toml");
-const STOP: &str = include_str!("../../scenes/double-pendulum-stop.toml");
+const STOP: &str = include_str!("../../scenes/s2/double-pendulum-stop.toml");
 const SPLIT: &str = include_str!("../../scenes/s2/split-slider-crank.toml");
 const MOTOR: &str = include_str!("../../scenes/motor/slider-crank.toml");
 

@@ -48,6 +48,7 @@ const MOTION: [&str; 4] = ["pin_vx", "pin_vy", "omega2", "omega3"];
 /// What a moment on the rod makes of the velocities over a step of this length, by a difference of this increment (N m).
 fn column(length: f64, increment: f64, is_repeated: bool) -> Vec<f64> {
     let mut run = falling("generalized-alpha");
+    run.treat_impacts(&Impacts::Alone).unwrap();
     let step = Interval { start: 0.0, length };
     let mut start = Snapshot::default();
     run.snapshot(&mut start);

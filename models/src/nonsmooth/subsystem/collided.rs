@@ -40,6 +40,8 @@ pub struct Collided {
     /// Whether the scheme has impulses in its steps.
     is_impulsive: bool,
     treatment: Treatment,
+    /// Whether a master has said how impacts are treated: then perturbed steps repeat them, which holds for small perturbations alone.
+    is_coupled: bool,
     pace: Pace,
     /// The impacts of the last step that was not repeated.
     noted: Vec<Noted>,
@@ -68,6 +70,7 @@ impl Collided {
             contacts,
             is_impulsive,
             treatment: Treatment::Found(None),
+            is_coupled: false,
             pace: Pace::Own,
             noted: Vec::with_capacity(PREPARED),
             found: Vec::with_capacity(PREPARED),
@@ -100,6 +103,7 @@ impl Collided {
                 Treatment::Given(noted.collect::<Result<_, _>>()?)
             }
         };
+        self.is_coupled = true;
         Ok(())
     }
 
@@ -128,7 +132,7 @@ impl Collided {
     pub fn begin(&mut self, pace: Pace, parts: usize) {
         let fits = self.active.len() == parts * self.contacts;
         self.pace = match pace {
-            Pace::Repeated if fits => Pace::Repeated,
+            Pace::Repeated if fits && self.is_coupled => Pace::Repeated,
             _ => Pace::Own,
         };
         self.done = 0;

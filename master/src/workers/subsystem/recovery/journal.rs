@@ -111,6 +111,7 @@ mod tests {
             instants: vec![0.07],
             integrals: 2,
             samples: Vec::new(),
+            ..v1::Advance::default()
         }
     }
 
