@@ -93,11 +93,12 @@ impl Model for Masses {
             solvers: vec![v1::SolverKind {
                 name: "fixed-steps".into(),
                 description: "exact for forces that are quadratic over an internal step".into(),
-                options: Vec::new(),
+                ..Default::default()
             }],
-            // True for fixed steps.
+            // True for fixed steps, and for a state that is written as numbers.
             capabilities: Some(v1::Capabilities {
                 repeats_step_sequence: true,
+                exportable_snapshot: true,
                 ..Default::default()
             }),
             ..Default::default()
