@@ -4,10 +4,9 @@ use linchpin_proto::contract::CallError;
 use linchpin_proto::readable::{number, time};
 use linchpin_proto::version::Incompatible;
 
-use crate::connection::{ExitMessage, StartError};
+use crate::connection::{ExitMessage, NotRecovered, StartError};
 use crate::methods::Unreadable;
 use crate::reading::SceneErrors;
-use crate::workers::NotRecovered;
 
 /// Why a run could not start or had to stop.
 #[derive(Debug, thiserror::Error)]

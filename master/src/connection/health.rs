@@ -9,7 +9,8 @@ use tonic_health::pb::health_check_response::ServingStatus;
 use tonic_health::pb::health_client::HealthClient;
 
 use super::grpc::{new_runtime, open, within};
-use super::{StartError, TimeLimits};
+use super::start_error::StartError;
+use super::time_limits::TimeLimits;
 use crate::interrupt::Interrupt;
 
 /// The gRPC service of a worker.

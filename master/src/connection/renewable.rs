@@ -3,7 +3,9 @@
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
-use super::{Connection, ExitMessage, StartError};
+use super::exit_message::ExitMessage;
+use super::start_error::StartError;
+use super::worker::Connection;
 
 /// How a worker is started, or reached once more.
 type Make = Box<dyn Fn() -> Result<Box<dyn Connection>, StartError> + Send>;

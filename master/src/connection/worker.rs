@@ -3,8 +3,8 @@
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
 
-use super::StartError;
 use super::exit_message::ExitMessage;
+use super::start_error::StartError;
 
 /// A worker that one subsystem of a scene lives in.
 pub trait Connection: Send {

@@ -25,4 +25,4 @@ mod views;
 pub use all::Workers;
 pub(crate) use look::Look;
 pub(crate) use samples::Samples;
-pub use subsystem::{Ahead, NotRecovered, RecoverySettings, Subsystem};
+pub use subsystem::{Ahead, RecoverySettings, Subsystem};

@@ -20,7 +20,7 @@ use crate::system::Differentiation;
 use crate::time::MacroStep;
 use recovery::Recovery;
 
-pub use recovery::{NotRecovered, RecoverySettings};
+pub use recovery::RecoverySettings;
 
 /// How much of the inside of a step an answer tells.
 #[derive(Debug, Clone, Copy)]

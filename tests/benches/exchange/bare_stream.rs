@@ -54,6 +54,20 @@ impl Worker for Constant {
         not_offered()
     }
 
+    async fn export_state(
+        &self,
+        _: Request<ExportStateRequest>,
+    ) -> Result<Response<ExportStateReply>, Status> {
+        not_offered()
+    }
+
+    async fn import_state(
+        &self,
+        _: Request<ImportStateRequest>,
+    ) -> Result<Response<ImportStateReply>, Status> {
+        not_offered()
+    }
+
     async fn step(&self, _: Request<StepRequest>) -> Result<Response<StepReply>, Status> {
         not_offered()
     }

@@ -52,7 +52,7 @@ fn json_is_what_a_worker_describes() {
     let outcome = workshop.run(&["describe", &socket, "--json"]);
     outcome.exits_with(0);
     let described = json(&outcome);
-    assert_eq!(described["protocol"], "1.3");
+    assert_eq!(described["protocol"], "1.4");
     let models = described["models"].as_array().unwrap();
     for own in all.as_array().unwrap() {
         let same = models

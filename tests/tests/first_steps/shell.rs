@@ -27,7 +27,7 @@ fn the_version_tells_commit_and_protocol() {
         lines[1].starts_with("commit    ") && lines[1].len() > 16,
         "{long}"
     );
-    assert_eq!(lines[2], "protocol  linchpin 1.3");
+    assert_eq!(lines[2], "protocol  linchpin 1.4");
 }
 
 #[test]
