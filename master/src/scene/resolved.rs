@@ -163,7 +163,7 @@ pub struct RunSettings {
     pub start_timeout: f64,
     /// How often a worker that is lost in an exchange is made anew; default 3.
     pub recoveries: usize,
-    /// Macro steps after which states of workers are exported; default 100.
+    /// Macro steps after which states of workers are exported; default 1000.
     pub export_every: usize,
     /// Time between two checkpoints in s; default 30.
     pub checkpoint_every: f64,

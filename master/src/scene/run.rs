@@ -36,7 +36,8 @@ const DEADLINE: f64 = 30.0;
 const START_TIMEOUT: f64 = 10.0;
 const RECOVERIES: usize = 3;
 const MOST_RECOVERIES: usize = 1000;
-const EXPORT_EVERY: usize = 100;
+/// An export is a call of its own, which takes as long as some macro steps of the smallest scenes: so it costs a percent of them.
+const EXPORT_EVERY: usize = 1000;
 const CHECKPOINT_EVERY: f64 = 30.0;
 /// Longer than any sensible wait, and short enough for every clock.
 const TIME_LIMIT: Range = Range {

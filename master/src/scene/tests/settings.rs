@@ -57,7 +57,7 @@ fn the_example_resolves_to_what_it_says() {
         deadline: 30.0,
         start_timeout: 10.0,
         recoveries: 3,
-        export_every: 100,
+        export_every: 1000,
         checkpoint_every: 30.0,
         checkpoint_steps: None,
     };
