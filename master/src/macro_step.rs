@@ -10,6 +10,7 @@
 //! * `foreseeing`: how far the step goes, which its error is compared with;
 //! * `jacobian`: conditions and the workers' responses, linearised;
 //! * `impacts`: impulses through the joints;
+//! * `impulses`: what of them goes to partners;
 //! * `error`: the error of a step, and with it the degrees of the next one;
 //! * `unresolved`: signals that the step does not resolve;
 //! * `rejection`: what may stand against a step;
@@ -20,6 +21,7 @@ mod correcting;
 mod error;
 mod foreseeing;
 mod impacts;
+mod impulses;
 mod jacobian;
 mod rejection;
 mod run;

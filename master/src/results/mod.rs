@@ -2,6 +2,7 @@
 
 mod column;
 mod contacts;
+mod described;
 mod free_velocity;
 mod growth;
 mod guard;
@@ -17,10 +18,10 @@ mod verdict;
 mod warning;
 
 pub use crate::accuracy::RunErrors;
-pub(crate) use column::described;
 pub use column::{Column, MarkerPart, Quantity};
 pub use contacts::RecordedContact;
 pub(crate) use contacts::outputs as contact_outputs;
+pub(crate) use described::described;
 pub use free_velocity::FreeVelocity;
 pub use guard::Guard;
 pub use integrations::{Cause, Integrations};

@@ -2,12 +2,12 @@
 
 pub(super) mod answer;
 mod recovery;
+mod replacing;
 mod request;
 #[cfg(test)]
 mod tests;
 
 use std::collections::BTreeMap;
-use std::hash::{BuildHasher, RandomState};
 
 use linchpin_proto::contract::CallError;
 use linchpin_proto::v1;
@@ -18,7 +18,7 @@ use crate::error::RunError;
 use crate::results::{Cause, ContactStatistics, Integrations, SubsystemStatistics};
 use crate::system::Differentiation;
 use crate::time::MacroStep;
-use recovery::Recovery;
+use recovery::{Recovery, random_number};
 
 pub use recovery::RecoverySettings;
 
@@ -319,9 +319,4 @@ impl Drop for Subsystem {
         // A worker that is gone needs no end of its instance.
         let _ = self.terminate();
     }
-}
-
-/// A number for an instance. The master chooses it; a random one does not meet those of other masters.
-fn random_number(name: &str) -> u64 {
-    RandomState::new().hash_one(name)
 }
