@@ -1,8 +1,10 @@
 //! `checkpoint`: what a run needs to go on when its process has ended, however that has ended.
 //!
 //! A new checkpoint is written beside the last one, and takes its place when it is on the disk as a whole. The last but one stays as
-//! well, so that one is there whatever happens to the newest. The file: [`MAGIC`], the format (4 bytes), the length of the content (8),
-//! its CRC-32 (4), all little-endian, and the content, in the encoding of `postcard`.
+//! well, so that one is there whatever happens to the newest.
+//!
+//! The file: the line `linchpin checkpoint`, the format (4 bytes), the length of the content (8), its CRC-32 (4), all little-endian,
+//! and the content, in the encoding of `postcard`.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
