@@ -241,14 +241,16 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Whether the connection to a worker broke. Before the first macro step a run may simply begin again.
+    /// Whether the connection to a worker broke, or its process was killed. Before the first macro step a run may simply begin again.
     pub fn is_broken_connection(&self) -> bool {
         let is_lost = |error: &CallError| matches!(error, CallError::Lost { .. });
         match self {
             Self::Worker { source, .. } | Self::NotImported { source, .. } => is_lost(source),
-            Self::Start { source, .. } => {
-                matches!(&**source, StartError::Call(error) if is_lost(error))
-            }
+            Self::Start { source, .. } => match &**source {
+                StartError::Call(error) => is_lost(error),
+                StartError::Ended(exit_message) => exit_message.is_killed,
+                _ => false,
+            },
             _ => false,
         }
     }

@@ -132,6 +132,21 @@ impl Drop for Workshop {
     }
 }
 
+/// That a scene with these settings writes the same table whether its workers are processes or not.
+#[track_caller]
+pub fn assert_same_bytes_in_processes(scene: &str, settings: &[&str]) {
+    let workshop = Workshop::new();
+    workshop.write("scene.toml", scene);
+    let table = |name: &str, more: &[&str]| {
+        let mut arguments = vec!["run", "scene.toml", "--out", name, "--no-plots", "--quiet"];
+        arguments.extend(settings.iter().flat_map(|own| ["--set", own]));
+        arguments.extend(more);
+        workshop.run(&arguments).succeeds();
+        workshop.read(&format!("{name}/results.csv"))
+    };
+    assert_eq!(table("processes", &[]), table("one", &["--in-process"]));
+}
+
 /// The binary beside the test executable: cargo builds it there for tests of the whole workspace.
 fn program() -> PathBuf {
     let test = std::env::current_exe().unwrap();

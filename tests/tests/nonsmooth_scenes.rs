@@ -4,7 +4,7 @@
 
 use linchpin::connect::Place;
 use linchpin_master::scene::{Override, Scene, parse};
-use linchpin_tests::process::Workshop;
+use linchpin_tests::process::assert_same_bytes_in_processes;
 use linchpin_tests::runs::{Trajectory, run};
 
 const ALONE: &str = include_str!("../../scenes/s2/slider-crank.toml");
@@ -58,16 +58,7 @@ fn threads_and_single_calls_change_no_bit() {
 #[test]
 fn worker_processes_change_no_byte() {
     for (text, overrides) in scenes() {
-        let workshop = Workshop::new();
-        workshop.write("scene.toml", text);
-        let table = |name: &str, more: &[&str]| {
-            let mut arguments = vec!["run", "scene.toml", "--out", name, "--no-plots", "--quiet"];
-            arguments.extend(overrides.iter().flat_map(|own| ["--set", own]));
-            arguments.extend(more);
-            workshop.run(&arguments).succeeds();
-            workshop.read(&format!("{name}/results.csv"))
-        };
-        assert_eq!(table("processes", &[]), table("one", &["--in-process"]));
+        assert_same_bytes_in_processes(text, &overrides);
     }
 }
 

@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
-    ConnectOptions, Connection, Direct, Launcher, Renewable, StartError, Threaded, TimeLimits,
-    UnaryTurns, WorkerProcess, connect, new_runtime, reach_started,
+    ConnectOptions, Connection, Direct, Launcher, Reached, Renewable, StartError, Threaded,
+    TimeLimits, UnaryTurns, WorkerProcess, connect, new_runtime, reach_started,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::ground::GROUND;
@@ -72,7 +72,7 @@ impl Connector {
             return Ok(self.in_this_process(subsystem));
         };
         let (address, way) = (address.clone(), self.way(scene, subsystem)?);
-        let reach = move || Ok(connect(&address, &way)?);
+        let reach = move || Ok(Reached::alone(connect(&address, &way)?));
         Ok(Box::new(Renewable::new(reach)?))
     }
 

@@ -7,6 +7,8 @@ use std::fmt;
 pub struct ExitMessage {
     /// How it ended; absent if it runs, or if the master did not start it.
     pub status: Option<String>,
+    /// Whether a signal has ended it, which is no decision of its own.
+    pub is_killed: bool,
     /// Last lines of its error output; empty if there are none.
     pub error_output: String,
 }

@@ -2,9 +2,9 @@
 
 use std::cell::RefCell;
 use std::fs::File;
-use std::os::unix::process::CommandExt;
+use std::os::unix::process::{CommandExt, ExitStatusExt};
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
 use rustix::process::{Pid, Signal, kill_process_group};
@@ -177,8 +177,11 @@ impl WorkerProcess {
 
     /// Whether it ended, and how.
     pub fn ended(&self) -> Option<String> {
-        let status = self.child.borrow_mut().try_wait().ok().flatten()?;
-        Some(status.to_string())
+        self.exit_status().map(|status| status.to_string())
+    }
+
+    fn exit_status(&self) -> Option<ExitStatus> {
+        self.child.borrow_mut().try_wait().ok().flatten()
     }
 
     /// How it ended and what it said last; for a process whose connection was lost, which is about to end.
@@ -189,6 +192,9 @@ impl WorkerProcess {
         }
         ExitMessage {
             status: self.ended(),
+            is_killed: self
+                .exit_status()
+                .is_some_and(|status| status.signal().is_some()),
             error_output: self.error_output(),
         }
     }

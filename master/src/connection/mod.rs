@@ -21,7 +21,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::{CallError, Contract};
-use linchpin_proto::v1::{self, ExchangeReply, ExchangeRequest};
+use linchpin_proto::v1;
 use linchpin_proto::version::{PROTOCOL, knows_whole_exchange};
 use tokio::runtime::Runtime;
 
@@ -33,7 +33,7 @@ pub use grpc::{Grpc, new_runtime};
 pub use health::{CONTRACT, health};
 pub use launch::{LaunchError, Launcher, WorkerProcess};
 pub use not_recovered::NotRecovered;
-pub use renewable::Renewable;
+pub use renewable::{Reached, Renewable};
 pub use start_error::StartError;
 pub use stream::ExchangeStream;
 pub use threaded::Threaded;
@@ -114,7 +114,7 @@ const ATTEMPT: Duration = Duration::from_millis(50);
 pub fn reach_started(
     process: WorkerProcess,
     options: &ConnectOptions,
-) -> Result<Box<dyn Connection>, StartError> {
+) -> Result<Reached, StartError> {
     let give_up = Instant::now() + options.limits.start;
     loop {
         let attempt = ConnectOptions {
@@ -131,8 +131,7 @@ pub fn reach_started(
         match reached {
             Ok(connection) => {
                 let runtime = Arc::clone(&options.runtime);
-                let ending = Ending { process, runtime };
-                return Ok(Box::new(Owned { connection, ending }));
+                return Ok(Reached::with_process(connection, process, runtime));
             }
             Err(CallError::Unreachable { .. }) if Instant::now() < give_up => {}
             Err(CallError::Unreachable { address, .. }) => {
@@ -144,47 +143,5 @@ pub fn reach_started(
             }
             Err(error) => return Err(error.into()),
         }
-    }
-}
-
-/// A connection together with the worker process that serves it; the process ends with the connection.
-struct Owned {
-    // Dropped in this order.
-    connection: Box<dyn Connection>,
-    ending: Ending,
-}
-
-/// Ends a worker process when it is dropped.
-struct Ending {
-    process: WorkerProcess,
-    runtime: Arc<Runtime>,
-}
-
-impl Drop for Ending {
-    fn drop(&mut self) {
-        // The runtime closes the sockets only while it runs, and a worker ends only when its sockets are closed.
-        self.runtime.block_on(self.process.end());
-    }
-}
-
-impl Connection for Owned {
-    fn contract(&self) -> &dyn Contract {
-        self.connection.contract()
-    }
-
-    fn post(&mut self, request: &ExchangeRequest) -> Result<(), CallError> {
-        self.connection.post(request)
-    }
-
-    fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError> {
-        self.connection.collect(reply)
-    }
-
-    fn exit_message(&self) -> ExitMessage {
-        self.ending.process.exit_message()
-    }
-
-    fn route(&self) -> &'static str {
-        self.connection.route()
     }
 }

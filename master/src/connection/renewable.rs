@@ -1,18 +1,64 @@
 //! Workers that are made anew when they are lost.
 
+use std::sync::Arc;
+
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::{ExchangeReply, ExchangeRequest};
+use tokio::runtime::Runtime;
 
 use super::exit_message::ExitMessage;
+use super::launch::WorkerProcess;
 use super::start_error::StartError;
 use super::worker::Connection;
 
+/// A connection, and the worker process that serves it if that ends with the connection.
+pub struct Reached {
+    // Dropped in this order.
+    connection: Box<dyn Connection>,
+    process: Option<Ending>,
+}
+
+/// Ends a worker process when it is dropped.
+struct Ending {
+    process: WorkerProcess,
+    runtime: Arc<Runtime>,
+}
+
+impl Drop for Ending {
+    fn drop(&mut self) {
+        // The runtime closes the sockets only while it runs, and a worker ends only when its sockets are closed.
+        self.runtime.block_on(self.process.end());
+    }
+}
+
+impl Reached {
+    /// A worker that somebody else has started.
+    pub fn alone(connection: Box<dyn Connection>) -> Self {
+        Self {
+            connection,
+            process: None,
+        }
+    }
+
+    /// A worker whose process ends with the connection, which `runtime` drives.
+    pub fn with_process(
+        connection: Box<dyn Connection>,
+        process: WorkerProcess,
+        runtime: Arc<Runtime>,
+    ) -> Self {
+        Self {
+            connection,
+            process: Some(Ending { process, runtime }),
+        }
+    }
+}
+
 /// How a worker is started, or reached once more.
-type Make = Box<dyn Fn() -> Result<Box<dyn Connection>, StartError> + Send>;
+type Make = Box<dyn Fn() -> Result<Reached, StartError> + Send>;
 
 /// A connection that can be made again in the way in which it was made first.
 pub struct Renewable {
-    connection: Box<dyn Connection>,
+    reached: Reached,
     make: Make,
 }
 
@@ -22,10 +68,10 @@ impl Renewable {
     /// # Errors
     /// Those of `make`.
     pub fn new(
-        make: impl Fn() -> Result<Box<dyn Connection>, StartError> + Send + 'static,
+        make: impl Fn() -> Result<Reached, StartError> + Send + 'static,
     ) -> Result<Self, StartError> {
         Ok(Self {
-            connection: make()?,
+            reached: make()?,
             make: Box::new(make),
         })
     }
@@ -33,19 +79,20 @@ impl Renewable {
 
 impl Connection for Renewable {
     fn contract(&self) -> &dyn Contract {
-        self.connection.contract()
+        self.reached.connection.contract()
     }
 
     fn post(&mut self, request: &ExchangeRequest) -> Result<(), CallError> {
-        self.connection.post(request)
+        self.reached.connection.post(request)
     }
 
     fn collect(&mut self, reply: &mut ExchangeReply) -> Result<(), CallError> {
-        self.connection.collect(reply)
+        self.reached.connection.collect(reply)
     }
 
     fn exit_message(&self) -> ExitMessage {
-        self.connection.exit_message()
+        let process = self.reached.process.as_ref();
+        process.map_or_else(ExitMessage::default, |own| own.process.exit_message())
     }
 
     fn is_renewable(&self) -> bool {
@@ -54,11 +101,11 @@ impl Connection for Renewable {
 
     fn renew(&mut self) -> Result<(), StartError> {
         // The old one ends here, with its process.
-        self.connection = (self.make)()?;
+        self.reached = (self.make)()?;
         Ok(())
     }
 
     fn route(&self) -> &'static str {
-        self.connection.route()
+        self.reached.connection.route()
     }
 }

@@ -36,7 +36,8 @@ impl Workers {
         drop(here);
         std::thread::scope(|scope| {
             for subsystem in others {
-                scope.spawn(move || drop(subsystem));
+                // Without a thread it ends here: the closure is dropped, and the subsystem with it.
+                let _ = std::thread::Builder::new().spawn_scoped(scope, move || drop(subsystem));
             }
         });
     }

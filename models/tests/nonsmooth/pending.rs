@@ -88,6 +88,43 @@ fn a_perturbed_step_repeats_impacts() {
     assert!(error > 5.0, "{free:?} {fine:?}");
 }
 
+/// Another instance goes on from a state as the first one does: its perturbed steps repeat impacts, although nobody has said anything to
+/// it yet.
+#[test]
+fn a_state_says_that_impacts_are_coupled() {
+    let (base, raised) = (loads(0.3, 0.02), loads(0.3, 0.72));
+    let perturbed = |run: &mut Box<dyn Subsystem>, state: &Snapshot| {
+        run.restore(state).unwrap();
+        run.step(interval(1e-4), &base).unwrap();
+        assert_eq!(run.impacts().len(), 1);
+        run.restore(state).unwrap();
+        run.perturbed_step(interval(1e-4), &raised).unwrap();
+        read(run, &MOTION)
+    };
+    let state_of = |is_told: bool| {
+        let mut run = falling("generalized-alpha");
+        if is_told {
+            run.treat_impacts(&Impacts::Alone).unwrap();
+        }
+        let short = Interval {
+            start: 0.0,
+            length: 1e-4,
+        };
+        run.step(short, &base).unwrap();
+        let mut state = Snapshot::default();
+        run.snapshot(&mut state);
+        (run, state)
+    };
+    let (mut first, told) = state_of(true);
+    let own = perturbed(&mut first, &told);
+    let mut other = falling("generalized-alpha");
+    assert_eq!(perturbed(&mut other, &told), own);
+    // Where nobody has said anything perturbed steps find impacts of their own, which are others.
+    let (_, untold) = state_of(false);
+    let mut other = falling("generalized-alpha");
+    assert_ne!(perturbed(&mut other, &untold), own);
+}
+
 /// A contact that closes where no impact is given stays open, and collides in the first internal step of the next free step.
 #[test]
 fn what_closes_without_an_impact_collides_later() {

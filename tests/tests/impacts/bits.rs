@@ -1,7 +1,7 @@
 //! Impacts across joints have the same bits everywhere, and after steps that were rejected.
 
 use linchpin::connect::Place;
-use linchpin_tests::process::Workshop;
+use linchpin_tests::process::assert_same_bytes_in_processes;
 use linchpin_tests::runs::run;
 
 use crate::{DRIVEN, PENDULUM, SPLIT, here, scene};
@@ -44,16 +44,7 @@ fn threads_and_single_calls_change_no_bit() {
 #[test]
 fn worker_processes_change_no_byte() {
     for (text, overrides) in cases() {
-        let workshop = Workshop::new();
-        workshop.write("scene.toml", text);
-        let table = |name: &str, more: &[&str]| {
-            let mut arguments = vec!["run", "scene.toml", "--out", name, "--no-plots", "--quiet"];
-            arguments.extend(overrides.iter().flat_map(|own| ["--set", own]));
-            arguments.extend(more);
-            workshop.run(&arguments).succeeds();
-            workshop.read(&format!("{name}/results.csv"))
-        };
-        assert_eq!(table("processes", &[]), table("one", &["--in-process"]));
+        assert_same_bytes_in_processes(text, &overrides);
     }
 }
 

@@ -5,7 +5,7 @@ use std::fs;
 use linchpin_tests::process::Workshop;
 use rustix::process::Signal;
 
-use crate::{DOUBLE_PENDULUM, OSCILLATOR, report, run, undisturbed, workshop};
+use crate::{DOUBLE_PENDULUM, OSCILLATOR, report, run, undisturbed, with_python_worker, workshop};
 
 /// A run that is killed when it has written checkpoints.
 #[track_caller]
@@ -185,6 +185,29 @@ fn what_cannot_be_resumed_is_refused_and_nothing_is_touched() {
     workshop
         .run(&resumed(&settings))
         .fails(1, &["out/results.csv has", "rows are missing"]);
+    let (head, rest) = table.split_once('\n').unwrap();
+    fs::write(&path, format!("{head}\nx{}", &rest[1..])).unwrap();
+    workshop
+        .run(&resumed(&settings))
+        .fails(1, &["out/results.csv", "invalid float"]);
+}
+
+/// A worker whose states stay inside it: that there are no checkpoints is told once, and the run goes on.
+#[test]
+fn a_run_without_checkpoints_says_so() {
+    let workshop = workshop(&with_python_worker());
+    let outcome = workshop.run(&run("out", &["scene.t_end=0.2", EVERY]));
+    outcome.succeeds().says(&[
+        "warning",
+        "\"mass2\" at t = 0.037 s: its state cannot be exported",
+        "begins at its start again",
+    ]);
+    assert_eq!(
+        outcome.stderr.matches("cannot be exported").count(),
+        1,
+        "{outcome}"
+    );
+    assert!(!workshop.path().join("out/checkpoint").exists());
 }
 
 /// A folder stands where a new checkpoint is written: the run goes on, says so, and the one before stays.

@@ -1,11 +1,15 @@
 //! A worker that is lost is replaced, and the run goes on.
 
+use std::path::PathBuf;
+
 use linchpin_tests::process::{Peer, Workshop};
+use linchpin_tests::python::{Python, in_repository, python};
 use rustix::process::Signal;
 
 use crate::seen::{send, wait_for_bytes};
 use crate::{
-    DOUBLE_PENDULUM, OSCILLATOR, recoveries, report, run, undisturbed, with_python_worker, workshop,
+    DOUBLE_PENDULUM, OSCILLATOR, SPLIT, recoveries, report, run, undisturbed, with_python_worker,
+    workshop,
 };
 
 /// Runs the scene, sends `signal` to the worker of `subsystem` when the table has some bytes, and again when it has more; the bits must be
@@ -102,6 +106,60 @@ fn a_worker_that_exports_nothing_repeats_all_steps() {
     let settings = ["run.recoveries=2"];
     let repeated = assert_recovers(&workshop, &settings, "mass2", Signal::KILL);
     assert!(repeated > 100, "{repeated}");
+}
+
+/// Impacts that partners take part in: what a master has said of them is a part of the state.
+#[test]
+fn impacts_across_joints_have_it_as_well() {
+    for every in ["run.export_every=1", "run.export_every=1000"] {
+        let workshop = workshop(SPLIT);
+        let settings = [
+            "coupling.macro_step=5e-6",
+            "subsystem.slider.solver.step=1e-6",
+            "scene.t_end=0.012",
+            every,
+        ];
+        assert_recovers(&workshop, &settings, "slider", Signal::KILL);
+    }
+}
+
+/// In place of the built-in worker comes one in Python, which integrates as exactly but rounds otherwise.
+#[test]
+fn a_worker_with_other_bits_ends_the_run() {
+    let workshop = Workshop::new();
+    let program = workshop.command::<&str>(&[]).get_program().to_owned();
+    let Python { interpreter, stubs } = python();
+    let script = "if test -e begun; then PYTHONPATH=$2 exec $3 $4 --listen $1; fi; touch begun; exec $0 worker --exit-with-stdin --listen $1";
+    let words = [
+        "sh".into(),
+        "-c".into(),
+        script.into(),
+        PathBuf::from(program),
+        "{address}".into(),
+        stubs.clone(),
+        interpreter.clone(),
+        in_repository("tests/python/oscillator_worker.py"),
+    ];
+    let served = format!("command = {words:?}\nmodel = \"oscillator\"  ");
+    let text = OSCILLATOR.replacen("model = \"oscillator\"  ", &served, 1);
+    workshop.write(
+        "scene.toml",
+        text.replacen("solver = { kind = \"exact\" } ", "", 1),
+    );
+    let settings = ["scene.t_end=1000", "run.export_every=1000000"];
+    let mut running = workshop.start(&run("out", &settings));
+    running.wait_for_rows("out");
+    send(&running, "mass1", Signal::KILL);
+    running.wait().fails(
+        1,
+        &[
+            "\"mass1\"",
+            "was lost",
+            "in 1 attempt: repeating its macro steps it came to ",
+            "must give the same bits",
+            "out/results.csv",
+        ],
+    );
 }
 
 /// A worker that was started by somebody else, and is started again by somebody else.

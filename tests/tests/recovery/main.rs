@@ -12,6 +12,8 @@ use linchpin_tests::python::{Python, in_repository, python};
 
 /// The oscillator of two masses.
 pub const OSCILLATOR: &str = include_str!("../../../scenes/oscillator.toml");
+/// A crank and a rod with slider, which collides, in two workers.
+pub const SPLIT: &str = include_str!("../../../scenes/s2/split-slider-crank.toml");
 /// Two links on a hinge.
 pub const DOUBLE_PENDULUM: &str = include_str!("../../../scenes/double-pendulum.toml");
 

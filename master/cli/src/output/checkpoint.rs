@@ -173,14 +173,16 @@ impl CheckpointFile {
         let newest = read(&folder.join(NEWEST));
         let previous = folder.join(PREVIOUS);
         match newest {
-            Err(error) if previous.exists() => {
-                let older = read(&previous).map_err(|_| error)?;
-                warn(format_args!(
-                    "the newest checkpoint cannot be used; the run goes on from the one before, at t = {} s",
-                    older.t
-                ));
-                Ok(older)
-            }
+            Err(error) if previous.exists() => match read(&previous) {
+                Ok(older) => {
+                    warn(format_args!(
+                        "the newest checkpoint cannot be used, and the run goes on from the one before, at t = {} s: {error}",
+                        older.t
+                    ));
+                    Ok(older)
+                }
+                Err(_) => Err(error),
+            },
             newest => newest,
         }
     }

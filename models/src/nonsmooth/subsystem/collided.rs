@@ -88,6 +88,16 @@ impl Collided {
         &self.found
     }
 
+    /// Whether a master has said how impacts are treated.
+    pub fn is_coupled(&self) -> bool {
+        self.is_coupled
+    }
+
+    /// Goes on from a state of which a master had said so, or not; what was said here once stays.
+    pub fn go_on(&mut self, is_coupled: bool) {
+        self.is_coupled |= is_coupled;
+    }
+
     /// Lets the steps that follow treat impacts so.
     pub fn treat(&mut self, impacts: &Impacts) -> Result<(), StepFailure> {
         self.treatment = match impacts {

@@ -19,8 +19,8 @@ use crate::nonsmooth::schemes::SchemeKind;
 use crate::nonsmooth::state::Drive;
 use crate::nonsmooth::system::MechanicalSystem;
 
-/// Numbers of a snapshot behind those of the integrator: whether it has started, and the last macro step.
-const OWN_NUMBERS: usize = 4;
+/// Numbers of a snapshot behind those of the integrator: whether it has started, whether impacts are coupled, and the last macro step.
+const OWN_NUMBERS: usize = 5;
 
 /// Inputs that differ by less than this share of their size have not jumped.
 const ROUNDING: f64 = 1e-11;
@@ -213,6 +213,7 @@ impl Run {
         } = self.last;
         put(&[
             f64::from(u8::from(self.has_started)),
+            f64::from(u8::from(self.collided.is_coupled())),
             impacts,
             time,
             impulse,
@@ -231,9 +232,18 @@ impl Run {
 
     fn recall(&mut self) {
         let own = self.integrator.recall(&self.kept);
-        if let &[has_started, impacts, time, impulse, ref rest @ ..] = own {
+        if let &[
+            has_started,
+            is_coupled,
+            impacts,
+            time,
+            impulse,
+            ref rest @ ..,
+        ] = own
+        {
             let (impulses, at_end) = rest.split_at(self.impulses.len());
             self.has_started = has_started == 1.0;
+            self.collided.go_on(is_coupled == 1.0);
             self.last = Interlude {
                 impacts,
                 time,
