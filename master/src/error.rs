@@ -248,7 +248,7 @@ impl RunError {
             Self::Worker { source, .. } | Self::NotImported { source, .. } => is_lost(source),
             Self::Start { source, .. } => match &**source {
                 StartError::Call(error) => is_lost(error),
-                StartError::Ended(exit_message) => exit_message.is_killed,
+                StartError::Ended(exit_message) => exit_message.is_killed(),
                 _ => false,
             },
             _ => false,

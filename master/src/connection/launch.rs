@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::fs::File;
-use std::os::unix::process::{CommandExt, ExitStatusExt};
+use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
@@ -176,11 +176,7 @@ impl WorkerProcess {
     }
 
     /// Whether it ended, and how.
-    pub fn ended(&self) -> Option<String> {
-        self.exit_status().map(|status| status.to_string())
-    }
-
-    fn exit_status(&self) -> Option<ExitStatus> {
+    pub fn ended(&self) -> Option<ExitStatus> {
         self.child.borrow_mut().try_wait().ok().flatten()
     }
 
@@ -192,9 +188,6 @@ impl WorkerProcess {
         }
         ExitMessage {
             status: self.ended(),
-            is_killed: self
-                .exit_status()
-                .is_some_and(|status| status.signal().is_some()),
             error_output: self.error_output(),
         }
     }

@@ -189,7 +189,7 @@ fn what_cannot_be_resumed_is_refused_and_nothing_is_touched() {
     fs::write(&path, format!("{head}\nx{}", &rest[1..])).unwrap();
     workshop
         .run(&resumed(&settings))
-        .fails(1, &["out/results.csv", "invalid float"]);
+        .fails(1, &["out/results.csv:2: column ", "which is no number"]);
 }
 
 /// A worker whose states stay inside it: that there are no checkpoints is told once, and the run goes on.

@@ -14,7 +14,7 @@ use linchpin_master::run::checkpoint::Checkpoint;
 use serde::{Deserialize, Serialize};
 
 use crate::commands::common::warn;
-use crate::results::Rejections;
+use crate::results::{ReadError, Rejections};
 
 const NEWEST: &str = "checkpoint";
 const PREVIOUS: &str = "checkpoint.previous";
@@ -123,13 +123,8 @@ pub enum ResumeError {
         expected: u64,
     },
     /// The table of results cannot be read.
-    #[error("{}: {source}", path.display())]
-    Table {
-        /// The table.
-        path: PathBuf,
-        /// Why.
-        source: csv::Error,
-    },
+    #[error(transparent)]
+    Table(ReadError),
 }
 
 impl CheckpointFile {

@@ -1,7 +1,7 @@
 //! Reads a folder of results back: `run.json`, and `results.csv` row by row.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use linchpin_master::scene::Panel;
@@ -227,31 +227,11 @@ impl Recorded {
         if self.about.columns.is_empty() {
             return Err(self.no_rows());
         }
-        let failed = |source| ReadError::Table {
-            path: path.clone(),
-            source,
-        };
-        let mut table = csv::Reader::from_path(&path).map_err(failed)?;
-        let names = self.about.columns.iter().map(ReportedColumn::name);
-        if !table.headers().map_err(failed)?.iter().eq(names) {
-            return Err(ReadError::OtherColumns { path });
-        }
-        let mut record = csv::StringRecord::new();
-        let mut values = Vec::new();
         let mut is_empty = true;
-        while table.read_record(&mut record).map_err(failed)? {
-            values.clear();
-            for (column, value) in self.about.columns.iter().zip(&record) {
-                values.push(value.parse().map_err(|_| ReadError::NoNumber {
-                    path: path.clone(),
-                    line: record.position().map_or(0, csv::Position::line),
-                    column: column.name().to_owned(),
-                    value: value.to_owned(),
-                })?);
-            }
+        visit_rows(&path, u64::MAX, &self.about.columns, |values| {
             is_empty = false;
-            visit(&values);
-        }
+            visit(values);
+        })?;
         match is_empty {
             true => Err(self.no_rows()),
             false => Ok(()),
@@ -265,4 +245,43 @@ impl Recorded {
             reason: self.about.reason.clone(),
         }
     }
+}
+
+/// Goes through the rows in the first bytes of a table that has these columns.
+///
+/// # Errors
+/// What is wrong with the table.
+pub(super) fn visit_rows(
+    path: &Path,
+    bytes: u64,
+    columns: &[ReportedColumn],
+    mut visit: impl FnMut(&[f64]),
+) -> Result<(), ReadError> {
+    let failed = |source| ReadError::Table {
+        path: path.to_owned(),
+        source,
+    };
+    let file = File::open(path).map_err(|error| failed(error.into()))?;
+    let mut table = csv::Reader::from_reader(file.take(bytes));
+    let names = columns.iter().map(ReportedColumn::name);
+    if !table.headers().map_err(failed)?.iter().eq(names) {
+        return Err(ReadError::OtherColumns {
+            path: path.to_owned(),
+        });
+    }
+    let mut record = csv::StringRecord::new();
+    let mut values = Vec::new();
+    while table.read_record(&mut record).map_err(failed)? {
+        values.clear();
+        for (column, value) in columns.iter().zip(&record) {
+            values.push(value.parse().map_err(|_| ReadError::NoNumber {
+                path: path.to_owned(),
+                line: record.position().map_or(0, csv::Position::line),
+                column: column.name().to_owned(),
+                value: value.to_owned(),
+            })?);
+        }
+        visit(&values);
+    }
+    Ok(())
 }

@@ -1,7 +1,5 @@
 //! Takes the rows of a run: into the table, the error meter and the traces of the picture.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -15,7 +13,7 @@ use linchpin_master::workers::Subsystem;
 
 use super::about::{About, ReportedColumn, SubsystemModel, multiplier_delay};
 use super::checkpoints::Checkpoints;
-use super::recorded::TABLE;
+use super::recorded::{TABLE, visit_rows};
 use super::table::Table;
 use super::{Plan, Recording, RunReport};
 use crate::animation::Motion;
@@ -131,8 +129,12 @@ impl RunRecorder {
         self.status.running()?;
         let path = self.folder.join(TABLE);
         if let Some(resumed) = self.resumed.take() {
-            let recorded = recorded_rows(&path, resumed.table_bytes)?;
-            recorded.iter().for_each(|values| self.remember(values));
+            let columns = self.status.about.columns.clone();
+            check_length(&path, resumed.table_bytes)?;
+            let read = visit_rows(&path, resumed.table_bytes, &columns, |values| {
+                self.remember(values);
+            });
+            read.map_err(ResumeError::Table)?;
             if let Some(recording) = &mut self.recording {
                 recording.rejections = resumed.rejections;
             }
@@ -242,26 +244,17 @@ impl Recorder for RunRecorder {
     }
 }
 
-/// The rows in the first bytes of a table.
-fn recorded_rows(path: &Path, bytes: u64) -> Result<Vec<Vec<f64>>, ResumeError> {
-    let read = || {
-        let file = File::open(path)?;
-        let found = file.metadata()?.len();
-        if found < bytes {
-            return Ok(Err(ResumeError::ShortTable {
-                path: path.to_owned(),
-                found,
-                expected: bytes,
-            }));
-        }
-        let mut table = csv::Reader::from_reader(file.take(bytes));
-        table
-            .deserialize()
-            .collect::<Result<_, csv::Error>>()
-            .map(Ok)
-    };
-    read().map_err(|source| ResumeError::Table {
-        path: path.to_owned(),
-        source,
-    })?
+/// That a table is as long as it was when a checkpoint was written, at least.
+fn check_length(path: &Path, expected: u64) -> Result<(), CommandError> {
+    let found = path.metadata().map_or(0, |metadata| metadata.len());
+    if found >= expected {
+        return Ok(());
+    }
+    let path = path.to_owned();
+    Err(ResumeError::ShortTable {
+        path,
+        found,
+        expected,
+    }
+    .into())
 }
