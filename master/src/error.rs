@@ -201,6 +201,12 @@ pub enum RunError {
          the cause goes with H"
     )]
     NoShorterStep(Box<RunError>),
+    /// A step near a singular position has failed, and so have others.
+    #[error(
+        "{0}\n  help: the mechanism is near a singular position, bars in line, where its joints do not determine their loads; another \
+         coupling.macro_step, coupling.tolerance or coupling.degree may step across it"
+    )]
+    NearSingular(Box<RunError>),
     /// No step is short enough.
     #[error(
         "no macro step from t = {t} s is short enough: with H = {step} s, which is coupling.least_step, the error of {variable} is \

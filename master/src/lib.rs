@@ -47,4 +47,3 @@ pub mod workers;
 pub use error::RunError;
 pub use interrupt::Interrupt;
 pub use run::CoSimulation;
-pub use run::state::RunState;

@@ -53,6 +53,7 @@ pub(crate) fn macro_step(run: &mut Run, first: MacroStep) -> Result<Outcome, Run
     };
     let step = outcome.step;
     outcome.has_impact = accepted.has_impact;
+    outcome.is_unsolved = accepted.is_unsolved;
     let wish = accept(run, step, accepted);
     let following = run.plan.following(wish);
     advance(run, step, following)?;
@@ -73,6 +74,8 @@ struct Accepted {
     has_jumped: bool,
     /// Whether there was an impact in it.
     has_impact: bool,
+    /// Whether it is taken with an error that is larger than allowed, near a singular position.
+    is_unsolved: bool,
 }
 
 /// Corrects the step as often as it takes. Where steps vary its error must be small enough at the first correction: later ones change
@@ -93,6 +96,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome, longest: f64) -> Result<Accepte
             error: None,
             has_jumped: false,
             has_impact: false,
+            is_unsolved: false,
         });
     };
     if let Some(error) = refusal {
@@ -103,7 +107,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome, longest: f64) -> Result<Accepte
         own.couple_impacts(step, &mut iteration, policies.degrees.as_deref_mut())?;
     }
     outcome.solving += own.correct(step)?;
-    let mut has_jumped = has_impact;
+    let (mut has_jumped, mut is_unsolved) = (has_impact, false);
     let step_size = policies.step_size.as_deref();
     if let Some(step_size) = step_size {
         let found = own.error(step, step_size.tolerance(), [None, None]);
@@ -117,6 +121,7 @@ fn attempt(run: &mut Run, outcome: &mut Outcome, longest: f64) -> Result<Accepte
                 [found, next],
             ));
         }
+        is_unsolved = step_size.is_best_of(step);
         has_jumped |= step_size.is_jump(step, &found);
         estimates = Some([found, next]);
     }
@@ -131,20 +136,28 @@ fn attempt(run: &mut Run, outcome: &mut Outcome, longest: f64) -> Result<Accepte
         outcome.solving += own.correct(step)?;
         iteration.note_pass(own.size_of_change(step, tolerance), with_columns);
     }
-    let converged = iteration.check();
-    converged.map_err(|because| Rejection::not_converged(own.layout, step, because))?;
+    match iteration.check() {
+        // The best attempt near a singular position is taken if its corrections come nearer.
+        Err(because) if !is_unsolved || because.rate >= 1.0 => {
+            return Err(Rejection::not_converged(own.layout, step, because));
+        }
+        _ => {}
+    }
     Ok(Accepted {
         iteration,
         estimates,
         error: Some(error).filter(|_| !has_jumped),
         has_jumped,
         has_impact,
+        is_unsolved,
     })
 }
 
 /// Looks ahead over a shorter step from the same macro point, if the rejection allows one.
 fn repeat(run: &mut Run, rejection: Rejection, outcome: &mut Outcome) -> Result<(), RunError> {
-    let repetition = rejection.repetition(run.step_size.as_mut(), outcome.step)?;
+    let correcting = run.correcting();
+    let singular = correcting.and_then(|(own, _)| own.singular_position());
+    let repetition = rejection.repetition(run.step_size.as_mut(), outcome.step, singular)?;
     if let Some((mut own, policies)) = run.correcting().filter(|_| repetition.has_jumped) {
         own.restart(policies.degrees);
     }
@@ -187,7 +200,10 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         run.iteration.pass_impact();
     }
     let mut columns = 0.0;
+    let (mut is_near_singular, mut least) = (false, 0.0);
     if let Some((mut own, policies)) = run.correcting() {
+        is_near_singular = own.note_position(step, accepted.is_unsolved);
+        least = own.singular_position().map_or(0.0, |nearby| nearby.least);
         let workers = &mut *own.workers;
         let layout = own.layout;
         own.method
@@ -204,14 +220,16 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
             policies.errors.accept(layout, step, error);
         }
     }
-    match (&mut run.step_size, accepted.estimates) {
+    run.iteration.approach_singular_position(is_near_singular);
+    let wish = match (&mut run.step_size, accepted.estimates) {
         (Some(step_size), _) if accepted.has_impact => step_size.pass_break(step),
         (Some(step_size), _) if accepted.has_jumped => step_size.pass_jump(step),
         (Some(step_size), Some([found, next])) => {
             step_size.accept(step, &next, next == found, columns)
         }
         _ => step.length,
-    }
+    };
+    wish.max(least)
 }
 
 /// What the workers have reached: tells the method, compares it with what was promised, and learns from the difference.
@@ -235,6 +253,9 @@ fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), Ru
                     _ => outcome.verdict,
                 };
                 iteration.learn(missed);
+            }
+            if outcome.is_unsolved {
+                outcome.verdict = Verdict::Poor;
             }
             outcome.passes = Passes {
                 is_limited,

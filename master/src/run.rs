@@ -2,12 +2,12 @@
 //!
 //! * [`crate::macro_step`]: one macro step;
 //! * [`settings`]: the constants that decide about its steps;
-//! * [`state`]: what a run is at a macro point, as a value;
+//! * `state`: what a run is at a macro point, as a value;
 //! * [`checkpoint`]: the same together with the states of its workers, from which a run goes on.
 
 pub mod checkpoint;
 pub mod settings;
-pub mod state;
+mod state;
 
 use std::time::Instant;
 
@@ -169,6 +169,9 @@ impl CoSimulation {
     pub fn statistics(&self) -> Statistics {
         let mut statistics = self.statistics.clone();
         statistics.estimated_errors = self.run.errors.of_run(&self.run.layout);
+        if let Some(corrector) = &self.run.corrector {
+            statistics.singular_positions = corrector.singular_positions.passages();
+        }
         statistics.steps = self.run.step_size.as_ref().and_then(StepSize::statistics);
         for (number, subsystem) in self.run.workers.subsystems.iter().enumerate() {
             let columns = self.run.corrector.as_ref().map(|own| &own.end.columns);

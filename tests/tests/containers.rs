@@ -143,12 +143,11 @@ impl Drop for Project {
 }
 
 /// The results of the same scene with worker processes on this machine.
-fn local_results(workshop: &Workshop) -> String {
+fn local_results(workshop: &Workshop, settings: &[&str]) -> String {
     let scene = repository().join("scenes/oscillator.toml");
     let scene = scene.display().to_string();
-    workshop
-        .run(&["run", &scene, "--out", "local", "--quiet"])
-        .succeeds();
+    let run = ["run", &scene, "--out", "local", "--no-plots", "--quiet"];
+    workshop.run(&[&run[..], settings].concat()).succeeds();
     workshop.read("local/results.csv")
 }
 
@@ -170,7 +169,7 @@ fn compose_gives_the_results_of_a_local_run() {
             .current_dir(workshop.path()),
     );
     let containers = workshop.read("compose/results.csv");
-    let local = local_results(&workshop);
+    let local = local_results(&workshop, &[]);
     assert!(
         containers == local,
         "results.csv of the containers differs:\n{containers}"
@@ -185,13 +184,8 @@ fn compose_gives_the_results_of_a_local_run() {
 /// The number of a user whom this machine does not know.
 const SOMEBODY: u32 = 61_234;
 
-#[test]
-fn results_go_to_a_folder_of_its_user() {
-    if let Some(reason) = missing_engine() {
-        println!("skipped, there is no docker engine: {reason}");
-        return;
-    }
-    let workshop = Workshop::new();
+/// The folder `own` in a workshop with its user, and what the file is told of both.
+fn own_folder(workshop: &Workshop) -> (u32, [(&'static str, String); 2]) {
     let out = workshop.path().join("own");
     fs::create_dir(&out).unwrap();
     let user = match getuid() {
@@ -205,10 +199,23 @@ fn results_go_to_a_folder_of_its_user() {
         ("LINCHPIN_OUT", out.display().to_string()),
         ("LINCHPIN_USER", format!("{user}:{user}")),
     ];
+    (user, settings)
+}
+
+#[test]
+fn results_go_to_a_folder_of_its_user() {
+    if let Some(reason) = missing_engine() {
+        println!("skipped, there is no docker engine: {reason}");
+        return;
+    }
+    let workshop = Workshop::new();
+    let (user, settings) = own_folder(&workshop);
     let project = Project::new("folder", &settings);
     succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master"]));
-    assert!(workshop.read("own/results.csv") == local_results(&workshop));
-    let owner = fs::metadata(out.join("results.csv")).unwrap().uid();
+    assert!(workshop.read("own/results.csv") == local_results(&workshop, &[]));
+    let owner = fs::metadata(workshop.path().join("own/results.csv"))
+        .unwrap()
+        .uid();
     assert_eq!(owner, user);
 }
 
@@ -260,7 +267,7 @@ fn containers_may_do_nothing_that_they_need_not() {
 }
 
 #[test]
-fn a_worker_that_was_killed_serves_again() {
+fn a_run_goes_on_with_a_worker_that_was_killed() {
     if let Some(reason) = missing_engine() {
         println!("skipped, there is no docker engine: {reason}");
         return;
@@ -269,13 +276,33 @@ fn a_worker_that_was_killed_serves_again() {
         println!("skipped, only root can kill what runs in a container");
         return;
     }
-    let project = Project::new("killed", &[]);
+    let workshop = Workshop::new();
+    let (_, settings) = own_folder(&workshop);
+    let project = Project::new("killed", &settings);
     succeed(&mut project.compose(&["up", "--build", "--detach", "mass1", "mass2"]));
-    let process = || project.inspect("mass1", "{{.State.Pid}}").parse().unwrap();
-    let killed: i32 = process();
-    kill_process(Pid::from_raw(killed).unwrap(), Signal::KILL).unwrap();
-    wait_until("another process", || ![0, killed].contains(&process()));
-    succeed(&mut project.compose(&["up", "--exit-code-from", "master"]));
+    let mut longer = project.compose(&["run", "-T", "--rm", "master"]);
+    longer.args(["run", "/scenes/oscillator-compose.toml", "--out", "/out"]);
+    longer.args(["--no-plots", "--set", "scene.t_end=40"]);
+    let master = std::thread::spawn(move || run(&mut longer));
+
+    let results = workshop.path().join("own/results.csv");
+    wait_until("results", || {
+        master.is_finished() || fs::metadata(&results).is_ok_and(|file| file.len() > 1 << 18)
+    });
+    let process = project.inspect("mass1", "{{.State.Pid}}").parse();
+    kill_process(Pid::from_raw(process.unwrap()).unwrap(), Signal::KILL).unwrap();
+
+    let ended = master.join().unwrap();
+    assert!(ended.status.success(), "{ended:?}");
+    let report: serde_json::Value = serde_json::from_str(&workshop.read("own/run.json")).unwrap();
+    let subsystems = &report["statistics"]["subsystems"];
+    assert_eq!(subsystems[0]["recoveries"]["workers"], 1, "{report}");
+    let local = local_results(&workshop, &["--set", "scene.t_end=40"]);
+    assert!(
+        workshop.read("own/results.csv") == local,
+        "{}",
+        workshop.path().display()
+    );
 }
 
 /// How often a line stands in a file of settings.

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::impacts::Impacts;
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
-use crate::accuracy::{Attempts, Change, Difference, PositionErrors, Tolerance};
+use crate::accuracy::{Attempts, Change, Difference, PositionErrors, SingularPosition, Tolerance};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::Corrected;
@@ -17,6 +17,7 @@ use crate::policies::degree::AutomaticDegrees;
 use crate::policies::iteration::{IterationControl, Missed};
 use crate::policies::linearisation_check::LinearisationCheck;
 use crate::policies::norm::Norm;
+use crate::policies::singular_positions::SingularPositions;
 use crate::results::{Cause, Verdict};
 use crate::system::Outputs;
 use crate::system::unknowns::Unknowns;
@@ -48,6 +49,8 @@ pub struct Corrector {
     pub(super) attempts: Attempts,
     deferred: DeferredCorrection,
     norm: Norm,
+    /// How far the equations are from having no unique solution.
+    pub singular_positions: SingularPositions,
     /// Whether the look-ahead is the first one over its step.
     is_first: bool,
     /// Whether it is another one with new columns.
@@ -62,6 +65,7 @@ pub struct State {
     columns: columns::State,
     deferred: DeferredCorrection,
     norm: Norm,
+    singular_positions: SingularPositions,
 }
 
 impl Corrector {
@@ -83,6 +87,7 @@ impl Corrector {
             attempts: Attempts::default(),
             deferred: DeferredCorrection::new(unknowns),
             norm: Norm::new(layout),
+            singular_positions: SingularPositions::default(),
             is_first: true,
             is_renewed: false,
             continues: false,
@@ -95,6 +100,7 @@ impl Corrector {
             columns: self.end.columns.state(),
             deferred: self.deferred.clone(),
             norm: self.norm.clone(),
+            singular_positions: self.singular_positions.clone(),
         }
     }
 
@@ -103,6 +109,7 @@ impl Corrector {
         self.end.columns.resume(state.columns);
         self.deferred = state.deferred;
         self.norm = state.norm;
+        self.singular_positions = state.singular_positions;
     }
 }
 
@@ -315,6 +322,23 @@ impl Correcting<'_> {
             degrees.accept();
             self.apply(degrees);
         }
+    }
+
+    /// The singular position that the step which was corrected last ends near, or begins near.
+    pub fn singular_position(&self) -> Option<SingularPosition> {
+        self.own
+            .singular_positions
+            .nearby(self.method.least_pivot())
+    }
+
+    /// Takes note of where the step ends, which is taken; whether the next one needs new columns for that.
+    pub fn note_position(&mut self, step: MacroStep, is_unsolved: bool) -> bool {
+        let least_pivot = self.method.least_pivot();
+        let own = &mut self.own.singular_positions;
+        if is_unsolved {
+            own.take_unsolved();
+        }
+        own.accept(step, least_pivot)
     }
 
     /// How well the outputs after the advance meet what their linearisation promised.

@@ -1,6 +1,6 @@
 //! What may stand against a macro step that no worker has taken yet.
 
-use crate::accuracy::Estimate;
+use crate::accuracy::{Estimate, SingularPosition};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::SingularRow;
@@ -18,6 +18,7 @@ pub struct Rejection {
 
 impl Rejection {
     /// The error is larger than allowed: that `found`, and that which the step would have had with the degrees of its repetition.
+
     pub fn by_error(
         layout: &Layout,
         step: MacroStep,
@@ -56,22 +57,24 @@ impl Rejection {
         }
     }
 
-    /// How the step is repeated; the error if it cannot be.
+    /// How the step, which may end near a singular position, is repeated; the error if it cannot be.
     pub fn repetition(
         self,
         step_size: Option<&mut StepSize>,
         step: MacroStep,
+        singular: Option<SingularPosition>,
     ) -> Result<Repetition, RunError> {
         let Self { cause, error } = self;
         let is_final = cause == Cause::Failed && !error.may_vanish_with_a_shorter_step();
         let Some(step_size) = step_size.filter(|own| own.varies() && !is_final) else {
             return Err(*error);
         };
-        match step_size.repeat(step, cause) {
+        match step_size.repeat(step, cause, singular) {
             Some(repetition) => {
                 log(step, cause, &error, repetition);
                 Ok(repetition)
             }
+            None if singular.is_some() => Err(RunError::NearSingular(error)),
             None => Err(of_least_step(*error)),
         }
     }

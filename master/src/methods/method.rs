@@ -163,6 +163,10 @@ pub trait Corrected: CouplingMethod {
     /// Changes the unknowns of the curves. `solution` is what the conditions at the `end` asked for.
     fn correct(&mut self, change: &[f64], solution: &[f64], end: &System);
 
+    /// How far the equations of the last correction are from having no unique solution: their least pivot, as a share of the largest entry of
+    /// its column.
+    fn least_pivot(&self) -> f64;
+
     /// By what the multipliers' curves are off as positions feel it, one error for each of their unknowns, written to `errors`; with
     /// polynomials of the present degree or of another one. `change` is the correction.
     fn load_errors(

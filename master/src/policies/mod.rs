@@ -6,6 +6,7 @@
 //! * [`deferred_correction`]: what corrections with kept columns miss, foreseen;
 //! * [`linearisation_check`]: what a correction promises, and what the workers make of it;
 //! * [`step_size`]: the length of a variable macro step;
+//! * [`singular_positions`]: where the joints do not determine their multipliers;
 //! * [`degree`]: degrees of polynomials that follow the estimates.
 //!
 //! No policy knows a worker, a method, or how a macro step goes.
@@ -16,4 +17,5 @@ pub mod degree;
 pub mod iteration;
 pub mod linearisation_check;
 pub mod norm;
+pub mod singular_positions;
 pub mod step_size;

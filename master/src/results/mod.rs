@@ -12,6 +12,7 @@ mod moments;
 mod outcome;
 mod redundancy;
 mod row;
+mod singular_passages;
 mod statistics;
 mod step_degrees;
 mod verdict;
@@ -30,6 +31,7 @@ pub use moments::MomentsOf;
 pub use outcome::{Outcome, Passes};
 pub use redundancy::Redundancy;
 pub use row::{OfStep, Row};
+pub use singular_passages::SingularPassages;
 pub use statistics::{
     ContactStatistics, Corrections, DegreeStatistics, JointResiduals, Recoveries, Rejections,
     Statistics, StepStatistics, SubsystemStatistics,

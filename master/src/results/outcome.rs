@@ -18,6 +18,8 @@ pub struct Outcome {
     pub passes: Passes,
     /// Whether there was an impact in it that partners took part in.
     pub has_impact: bool,
+    /// Whether it was taken with an error that is larger than allowed, near a singular position.
+    pub is_unsolved: bool,
 }
 
 impl Outcome {
@@ -29,6 +31,7 @@ impl Outcome {
             solving: Duration::ZERO,
             passes: Passes::default(),
             has_impact: false,
+            is_unsolved: false,
         }
     }
 }

@@ -7,7 +7,8 @@ use linchpin_proto::v1;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Redundancy, Row, StepDegrees, Verdict,
+    FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Redundancy, Row, SingularPassages,
+    StepDegrees, Verdict,
 };
 use crate::accuracy::RunErrors;
 use crate::layout::Layout;
@@ -50,6 +51,8 @@ pub struct Statistics {
     pub free_velocities: Vec<FreeVelocity>,
     /// Conditions of the joints that follow from others.
     pub redundancy: Redundancy,
+    /// Singular positions that were passed.
+    pub singular_positions: SingularPassages,
     /// The share of every subsystem.
     pub subsystems: Vec<SubsystemStatistics>,
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::redundancy::Redundancy;
+use super::singular_passages::SingularPassages;
 use super::statistics::Statistics;
 
 /// Share of the macro steps that may be poor.
@@ -22,6 +23,8 @@ const OF_RUN: f64 = 0.1;
 pub enum Warning {
     /// Joints demand the same.
     Redundant(Redundancy),
+    /// Positions in which the joints do not determine their loads, and macro steps there that are not as accurate as others.
+    Singular(SingularPassages),
     /// The corrections of many macro steps have missed their aim.
     Poor {
         /// So many.
@@ -58,6 +61,10 @@ impl Statistics {
         let mut warnings = Vec::new();
         if self.redundancy.conditions > 0 {
             warnings.push(Warning::Redundant(self.redundancy.clone()));
+        }
+        let singular = self.singular_positions;
+        if singular.count > 0 {
+            warnings.push(Warning::Singular(singular));
         }
         let (steps, of) = (self.verdicts.poor, self.macro_steps);
         if steps as f64 > MOST_POOR * of as f64 {
@@ -105,6 +112,29 @@ impl fmt::Display for Warning {
                      multipliers of least norm are taken; the motion does not depend on that",
                     joints.join(", ")
                 )
+            }
+            Self::Singular(SingularPassages {
+                count,
+                first,
+                unsolved_steps,
+            }) => {
+                let positions = match count {
+                    1 => "a singular position".to_owned(),
+                    _ => format!("{count} singular positions"),
+                };
+                let t = first.unwrap_or_default();
+                write!(
+                    f,
+                    "the mechanism passes {positions}, the first time at t = {t:.6} s: there the joints do not determine their loads, \
+                     and macro steps are less accurate than others"
+                )?;
+                match unsolved_steps {
+                    0 => Ok(()),
+                    _ => write!(
+                        f,
+                        "; {unsolved_steps} of them miss coupling.tolerance, since shorter ones are no better"
+                    ),
+                }
             }
             Self::Poor { steps, of } => write!(
                 f,

@@ -18,7 +18,7 @@ use crate::time::{MacroStep, TimePlan};
 /// All that a run knows at a macro point, but for the states of the solvers, which are their workers', and for what its scene and the
 /// workers' descriptions say. Any serde format keeps it that keeps all bits of numbers, also of infinite ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RunState {
+pub(super) struct RunState {
     /// What the run couples and records: names of the coupling variables, then of the result columns.
     names: Vec<String>,
     plan: TimePlan,
@@ -51,7 +51,7 @@ struct WorkerState {
 
 impl CoSimulation {
     /// The run at the present macro point.
-    pub fn state(&self) -> RunState {
+    pub(super) fn state(&self) -> RunState {
         let workers = self.run.workers.subsystems.iter().map(|own| WorkerState {
             outputs: own.outputs.clone(),
             exchanges: own.exchanges,

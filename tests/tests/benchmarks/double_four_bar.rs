@@ -2,6 +2,7 @@
 
 use linchpin::connect::Place;
 use linchpin_master::RunError;
+use linchpin_master::results::Warning;
 use linchpin_master::setup::Options;
 use linchpin_tests::convergence::assert_least_orders;
 use linchpin_tests::runs::{Trajectory, run, try_run};
@@ -69,6 +70,71 @@ fn orders_before_the_singular_position() {
             &errors,
             [order - 0.3; 3],
         );
+    }
+}
+
+/// The largest change of the energy in 10 s and the steps, and the warnings of the run; its error if it does not come to its end.
+fn through_all_positions(coupling: &str) -> Result<(f64, usize, Vec<Warning>), RunError> {
+    let scene = with_settings(SPLIT, coupling, &["scene.t_end=10"]);
+    let found = try_run(&scene, Place::InProcess, &Options::default())?;
+    let energies = energy(&found);
+    let change = energies.iter().map(|energy| (energy - energies[0]).abs());
+    let warnings = found.statistics.warnings();
+    Ok((change.fold(0.0, f64::max), found.rows.len() - 1, warnings))
+}
+
+/// Ten times through the position with all bars in line, with the bound of the library of benchmarks: 1e-5 J, in no more than 2,000 steps.
+#[test]
+fn energy_is_kept_through_singular_positions() {
+    for coupling in [
+        "tolerance=1e-8",
+        "tolerance=1e-6 degree=2",
+        "tolerance=1e-8 macro_step=1.3e-2 jacobian=every-step",
+    ] {
+        let (change, steps, warnings) = through_all_positions(coupling).unwrap();
+        println!("{coupling}: {change:.1e} J in {steps} steps");
+        assert!(
+            change < 1e-5 && steps < 2000,
+            "{coupling}: {change:e} J, {steps} steps"
+        );
+        let is_told =
+            |warning: &Warning| matches!(warning, Warning::Singular(own) if own.count > 4);
+        assert!(warnings.iter().any(is_told), "{coupling}: {warnings:?}");
+    }
+}
+
+/// A run that does not come across says where it is and why.
+#[test]
+fn a_run_that_ends_near_a_singular_position_says_so() {
+    let error = through_all_positions("tolerance=1e-7 degree=2").unwrap_err();
+    let is_named = matches!(error, RunError::NearSingular(_));
+    assert!(
+        is_named && error.to_string().contains("bars in line"),
+        "{error}"
+    );
+}
+
+/// Prints the table of docs/evidence/benchmarks.md.
+#[test]
+#[ignore = "prints a table"]
+fn table_of_double_four_bar() {
+    println!("| coupling | change of energy, J | macro steps |\n|---|---|---|");
+    for coupling in [
+        "tolerance=1e-5",
+        "tolerance=1e-6",
+        "tolerance=1e-7",
+        "tolerance=1e-8",
+        "tolerance=1e-6 degree=2",
+        "tolerance=1e-7 degree=2",
+        "tolerance=1e-8 jacobian=every-step",
+        "macro_step=1e-2",
+        "macro_step=5e-3",
+        "macro_step=5e-3 degree=2",
+    ] {
+        match through_all_positions(coupling) {
+            Ok((change, steps, _)) => println!("| `{coupling}` | {change:.1e} | {steps} |"),
+            Err(error) => println!("| `{coupling}` | ends: {error} | |"),
+        }
     }
 }
 

@@ -368,6 +368,10 @@ impl Corrected for HermiteCoupling {
         self.foresee_accelerations(solution, end);
     }
 
+    fn least_pivot(&self) -> f64 {
+        self.solver.least_pivot()
+    }
+
     fn load_errors(
         &self,
         unknowns: &Unknowns,

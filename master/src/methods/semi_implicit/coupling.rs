@@ -198,6 +198,11 @@ impl Corrected for SemiImplicit {
         }
     }
 
+    fn least_pivot(&self) -> f64 {
+        let solvers = self.solvers.iter().map(LinearSolver::least_pivot);
+        solvers.fold(1.0, f64::min)
+    }
+
     fn load_errors(
         &self,
         _unknowns: &Unknowns,

@@ -83,7 +83,11 @@ impl IterationControl {
 
     /// Whether new columns have to come with the next look-ahead, whatever others are at hand.
     pub fn needs_new_columns(&self) -> bool {
-        self.rule == Jacobian::EveryStep || self.state.is_slow || self.state.is_struck
+        let state = &self.state;
+        self.rule == Jacobian::EveryStep
+            || state.is_slow
+            || state.is_struck
+            || state.is_near_singular
     }
 
     /// The look-ahead over the present step has brought new columns after all, because of an impact within it.
@@ -95,6 +99,11 @@ impl IterationControl {
     /// The step that was accepted has had an impact: behind it contacts are others, and columns as well.
     pub fn pass_impact(&mut self) {
         self.state.is_struck = true;
+    }
+
+    /// Whether the step that was accepted ends near a singular position, where the responses of earlier steps do not serve.
+    pub fn approach_singular_position(&mut self, is_near: bool) {
+        self.state.is_near_singular = is_near;
     }
 
     /// Whether the scene says how often steps are corrected.
@@ -114,6 +123,7 @@ impl IterationControl {
         if state.come_next && self.rule != Jacobian::EveryStep {
             let because = match found {
                 _ if state.is_struck => "contacts are others behind an impact",
+                _ if state.is_near_singular => "the mechanism is near a singular position",
                 _ if state.is_slow => "corrections converge slowly",
                 Some(_) => "steps keep a length without columns of its own",
                 None => "no columns at hand serve",

@@ -29,6 +29,8 @@ pub struct State {
     pub(super) is_slow: bool,
     /// Whether there was an impact in it.
     pub(super) is_struck: bool,
+    /// Whether it ends near a singular position.
+    pub(super) is_near_singular: bool,
     /// Length of that step in s.
     pub(super) length: f64,
     /// Macro steps of this length in a row that needed passes with columns of other lengths.

@@ -9,6 +9,7 @@
 //! a proportional-integral controller, so that the length does not swing; where the error is known from the step alone and a longer step
 //! saves more until the end than its columns cost, `H_{N+1} = H_N s e_N^(-1/p)`. Both within the limits of [`Settings`].
 
+mod best;
 mod control;
 mod settings;
 #[cfg(test)]
@@ -16,9 +17,10 @@ mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::accuracy::{Estimate, Suspect, Tolerance};
+use crate::accuracy::{Estimate, SingularPosition, Suspect, Tolerance};
 use crate::results::StepStatistics;
 use crate::time::MacroStep;
+use best::{Again, Attempts};
 
 pub use control::StepControl;
 pub(crate) use settings::SETTINGS;
@@ -45,6 +47,8 @@ pub struct State {
     is_repeated: bool,
     /// The last attempt at the present step whose error was too large.
     rejected: Option<Rejected>,
+    /// The attempts at it near a singular position.
+    attempts: Attempts,
     /// Length that steps do not exceed, and how many more of them.
     careful: Option<(f64, u32)>,
     statistics: StepStatistics,
@@ -111,6 +115,7 @@ impl StepSize {
                 before: 1.0,
                 is_repeated: false,
                 rejected: None,
+                attempts: Attempts::default(),
                 careful: None,
                 statistics: StepStatistics::default(),
             },
@@ -144,7 +149,15 @@ impl StepSize {
 
     /// Whether a step with this error is too long.
     pub fn is_too_long(&self, step: MacroStep, estimate: &Estimate) -> bool {
-        self.varies() && estimate.scaled > 1.0 && !self.is_jump(step, estimate)
+        self.varies()
+            && estimate.scaled > 1.0
+            && !self.is_jump(step, estimate)
+            && !self.is_best_of(step)
+    }
+
+    /// Whether the step is taken whatever its error is, since shorter ones were no better.
+    pub fn is_best_of(&self, step: MacroStep) -> bool {
+        self.state.attempts.takes(step.length)
     }
 
     /// Whether an exchanged variable jumps in `step`: in the shortest step its error is the jump, and what follows from that for the motion
@@ -176,6 +189,7 @@ impl StepSize {
             .map_or(self.first, |step| step.length);
         (state.before, state.is_repeated) = (1.0, false);
         (state.rejected, state.careful) = (None, None);
+        state.attempts = Attempts::default();
         state.statistics.accept(step);
         let next = self.allowed(SETTINGS.most_shrinking * longest);
         tracing::debug!(
@@ -212,12 +226,25 @@ impl StepSize {
         self.rule
     }
 
-    /// How a step is repeated after this; `None` if it may not be shorter.
-    pub fn repeat(&mut self, step: MacroStep, cause: Cause) -> Option<Repetition> {
-        if step.length <= self.control.least_step {
+    /// How a step is repeated after this, which may end near a singular position; `None` if it may not be shorter.
+    pub fn repeat(
+        &mut self,
+        step: MacroStep,
+        cause: Cause,
+        singular: Option<SingularPosition>,
+    ) -> Option<Repetition> {
+        let is_shortest = step.length <= self.control.least_step;
+        let state = &mut self.state;
+        let error = match cause {
+            Cause::Error { found, .. } => Some(found.scaled),
+            Cause::NotConverged(_) | Cause::Failed => None,
+        };
+        let again = singular.map_or(Again::Shorter, |near| {
+            state.attempts.reject(step.length, error, near)
+        });
+        if again == Again::Never || is_shortest && again == Again::Shorter {
             return None;
         }
-        let state = &mut self.state;
         let causes = &mut state.statistics.rejected_by_cause;
         let (count, share) = match cause {
             Cause::Error { next, .. } => {
@@ -233,7 +260,14 @@ impl StepSize {
         *count += 1;
         state.statistics.rejected += 1;
         state.is_repeated = true;
-        let length = step.length * share.clamp(SETTINGS.most_shrinking, SETTINGS.safety);
+        if let Again::With(length) = again {
+            return Some(Repetition {
+                length,
+                has_jumped: false,
+            });
+        }
+        let length = state.attempts.shortest(step.length)
+            * share.clamp(SETTINGS.most_shrinking, SETTINGS.safety);
         let length = self.allowed(length);
         let has_jumped = match cause {
             Cause::Error { found, next } => self.has_jumped(step, found.change, next.change),
@@ -305,6 +339,7 @@ impl StepSize {
         state.before = scaled;
         state.is_repeated = false;
         state.rejected = None;
+        state.attempts = Attempts::default();
         state.statistics.accept(step);
         let next = match wish == step.length {
             true => wish,

@@ -42,6 +42,9 @@ pub struct Settings {
     /// A step with an impact is shortened for its error down to this share of what it was at the first attempt. Smaller reaches lengths at
     /// which the responses of the workers are rounding; larger leaves more of what the loads of the step miss of its jump.
     pub least_of_impact: f64,
+    /// Attempts at a step near a singular position that are no better than a longer one before that one is taken. Smaller takes a step that
+    /// ends in the position, larger tries more that are hopeless.
+    pub most_in_vain: u32,
     /// Accepted steps after a failure that stay below the length that failed: the error says nothing of failures.
     pub careful_steps: u32,
 }
@@ -63,5 +66,6 @@ pub(crate) const SETTINGS: Settings = Settings {
     diverged: 0.5,
     least_of_impact: 1.0 / 128.0,
     failed: 0.25,
+    most_in_vain: 3,
     careful_steps: 20,
 };

@@ -86,7 +86,7 @@ proptest! {
         order in 1usize..7,
     ) {
         let found = estimate(scaled, order, 1.0);
-        let repetition = controller().repeat(step(0.1), error(found)).unwrap();
+        let repetition = controller().repeat(step(0.1), error(found), None).unwrap();
         let ratio = repetition.length / 0.1;
         prop_assert!((0.09..=SETTINGS.safety).contains(&ratio));
         let shrunk_as_far_as_allowed = ratio < 0.101;
@@ -99,7 +99,7 @@ proptest! {
 fn a_step_after_a_rejected_one_does_not_grow() {
     let mut own = controller();
     let length = own
-        .repeat(step(0.1), error(estimate(50.0, 3, 1.0)))
+        .repeat(step(0.1), error(estimate(50.0, 3, 1.0)), None)
         .unwrap()
         .length;
     let next = own.accept(step(length), &estimate(1e-9, 3, 0.0), true, 0.0);
@@ -112,14 +112,18 @@ fn a_change_that_does_not_fall_with_the_step_is_a_jump() {
     let mut own = controller();
     let mut repeat = |length: f64, change: f64| {
         let found = estimate(9.0, 2, change);
-        own.repeat(step(length), error(found)).unwrap().has_jumped
+        own.repeat(step(length), error(found), None)
+            .unwrap()
+            .has_jumped
     };
     assert!(!repeat(0.08, 1.0));
     assert!(repeat(0.02, 0.9));
     let mut own = controller();
     let mut repeat = |length: f64, change: f64| {
         let found = estimate(9.0, 2, change);
-        own.repeat(step(length), error(found)).unwrap().has_jumped
+        own.repeat(step(length), error(found), None)
+            .unwrap()
+            .has_jumped
     };
     assert!(!repeat(0.08, 1.0));
     assert!(!repeat(0.02, 0.25));
@@ -129,7 +133,10 @@ fn a_change_that_does_not_fall_with_the_step_is_a_jump() {
 fn after_a_failure_steps_stay_below_the_length_that_failed() {
     let mut own = controller();
     let failed = 0.4;
-    let mut length = own.repeat(step(failed), Cause::Failed).unwrap().length;
+    let mut length = own
+        .repeat(step(failed), Cause::Failed, None)
+        .unwrap()
+        .length;
     assert!(length <= SETTINGS.failed * failed);
     for _ in 0..SETTINGS.careful_steps {
         length = own.accept(step(length), &estimate(1e-9, 3, 0.0), true, 0.0);
@@ -144,9 +151,9 @@ fn after_a_failure_steps_stay_below_the_length_that_failed() {
 #[test]
 fn the_least_step_is_not_repeated_and_every_rejection_is_counted() {
     let mut own = controller();
-    assert_eq!(own.repeat(step(1e-8), Cause::Failed), None);
-    own.repeat(step(1e-3), Cause::NotConverged(Some(0.5)));
-    own.repeat(step(1e-3), error(estimate(2.0, 2, 1.0)));
+    assert_eq!(own.repeat(step(1e-8), Cause::Failed, None), None);
+    own.repeat(step(1e-3), Cause::NotConverged(Some(0.5)), None);
+    own.repeat(step(1e-3), error(estimate(2.0, 2, 1.0)), None);
     let counted = own.statistics().unwrap();
     assert_eq!(counted.rejected, 2);
     let causes = counted.rejected_by_cause;

@@ -94,6 +94,11 @@ impl Bordered {
         self.give(rhs);
     }
 
+    /// The least pivot of the last factors, as a share of its column.
+    pub fn least_pivot(&self) -> f64 {
+        self.dense.least_pivot
+    }
+
     fn take(&mut self, rhs: &[f64]) {
         self.rhs.fill(0.0);
         for ((own, value), scale) in self.rhs.iter_mut().zip(rhs).zip(&self.scales[0]) {

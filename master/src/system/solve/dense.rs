@@ -5,7 +5,7 @@ use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{Mat, Par};
 
-use super::pivot::{SingularColumn, is_rounding};
+use super::pivot::{SingularColumn, share};
 use crate::system::pattern::Pattern;
 
 /// LU decomposition in place.
@@ -15,6 +15,8 @@ pub struct Dense {
     permutation: Vec<usize>,
     inverse: Vec<usize>,
     memory: MemBuffer,
+    /// The least pivot of the last factors, as a share of its column.
+    pub least_pivot: f64,
 }
 
 impl Dense {
@@ -28,6 +30,7 @@ impl Dense {
             permutation: vec![0; n],
             inverse: vec![0; n],
             memory: MemBuffer::new(factor.or(solve)),
+            least_pivot: 1.0,
         }
     }
 
@@ -50,11 +53,11 @@ impl Dense {
             MemStack::new(&mut self.memory),
             Default::default(),
         );
+        self.least_pivot = 1.0;
         for column in 0..pattern.size() {
             let own = &values[pattern.entries_of(column)];
-            if is_rounding(self.matrix[(column, column)], own) {
-                return Err(SingularColumn(column));
-            }
+            let share = share(self.matrix[(column, column)], own).ok_or(SingularColumn(column))?;
+            self.least_pivot = self.least_pivot.min(share);
         }
         self.substitute(rhs);
         Ok(())

@@ -99,6 +99,16 @@ impl LinearSolver {
         }
     }
 
+    /// The least pivot of the last factors, as a share of the largest entry of its column: how far the matrix is from a singular one. 1 before the
+    /// first solution.
+    pub fn least_pivot(&self) -> f64 {
+        match &self.elimination {
+            Elimination::Dense(dense) => dense.least_pivot,
+            Elimination::Sparse(sparse) => sparse.least_pivot,
+            Elimination::Bordered(own) => own.least_pivot(),
+        }
+    }
+
     /// Solves with the factors of the last matrix that [`LinearSolver::solve`] solved with success, and writes the solution over
     /// `rhs`.
     pub fn solve_again(&mut self, rhs: &mut [f64]) {

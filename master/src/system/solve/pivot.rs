@@ -9,10 +9,11 @@ pub struct SingularColumn(pub usize);
 /// A pivot below this share of the largest entry of its column is rounding.
 const PIVOT_ROUNDING: f64 = 1e-14;
 
-/// Whether a pivot is zero up to rounding, or not a number; `column` are the entries of its column in the matrix.
-pub(super) fn is_rounding(pivot: f64, column: &[f64]) -> bool {
+/// A pivot as a share of the largest entry of its column in the matrix, which is `column`; `None` if it is zero up to rounding, or not a number.
+pub(super) fn share(pivot: f64, column: &[f64]) -> Option<f64> {
     let largest = column
         .iter()
         .fold(0.0, |largest: f64, value| largest.max(value.abs()));
-    pivot.is_nan() || pivot.abs() <= PIVOT_ROUNDING * largest
+    let share = pivot.abs() / largest;
+    (share > PIVOT_ROUNDING).then_some(share)
 }

@@ -10,7 +10,7 @@ use faer::sparse::linalg::{LuError, colamd};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, Mat, Par};
 
-use super::pivot::{SingularColumn, is_rounding};
+use super::pivot::{SingularColumn, share};
 use crate::system::pattern::Pattern;
 
 /// LU decomposition column by column (Gilbert and Peierls). The order of the columns follows from the pattern alone
@@ -23,6 +23,8 @@ pub struct Sparse {
     pivot_places: Vec<usize>,
     rhs: Mat<f64>,
     memory: MemBuffer,
+    /// The least pivot of the last factors, as a share of its column.
+    pub least_pivot: f64,
 }
 
 impl Sparse {
@@ -37,6 +39,7 @@ impl Sparse {
             pivot_places: vec![0; n],
             rhs: Mat::zeros(n, 1),
             memory: MemBuffer::new(factor.or(solve)),
+            least_pivot: 1.0,
         }
     }
 
@@ -106,12 +109,13 @@ impl Sparse {
             }
         }
         let upper = self.factors.u_factor_unsorted();
+        self.least_pivot = 1.0;
         for (step, &column) in columns.iter().enumerate() {
             // The pivot is the last entry of its column.
             let pivot = upper.val_of_col(step).last().copied().unwrap_or(0.0);
-            if is_rounding(pivot, &values[pattern.entries_of(column)]) {
-                return Err(SingularColumn(column));
-            }
+            let own = &values[pattern.entries_of(column)];
+            let share = share(pivot, own).ok_or(SingularColumn(column))?;
+            self.least_pivot = self.least_pivot.min(share);
         }
         Ok(())
     }
