@@ -15,6 +15,18 @@ pub trait Contract: Send + Sync {
     fn describe(&self, request: &DescribeRequest) -> Result<DescribeReply, CallError>;
     /// Creates an instance.
     fn initialize(&self, request: &InitializeRequest) -> Result<InitializeReply, CallError>;
+    /// Creates an instance that belongs to `owner`. Servers that know who calls create instances so.
+    fn initialize_for(
+        &self,
+        request: &InitializeRequest,
+        _owner: &Owner,
+    ) -> Result<InitializeReply, CallError> {
+        self.initialize(request)
+    }
+    /// Whether `caller` may use an instance: nobody but its owner. Servers that know who calls ask before every call.
+    fn may_use(&self, _instance: u64, _caller: &Owner) -> bool {
+        true
+    }
     /// Keeps the present state.
     fn snapshot(&self, request: &SnapshotRequest) -> Result<SnapshotReply, CallError>;
     /// Goes back to a kept state.
@@ -110,6 +122,17 @@ impl PartialEq for Hold {
     }
 }
 
+/// Whom instances belong to: the certificate of a master.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Owner(Arc<[u8]>);
+
+impl Owner {
+    /// The holder of a certificate, as DER.
+    pub fn of_certificate(certificate: &[u8]) -> Self {
+        Self(certificate.into())
+    }
+}
+
 /// Why a call has no answer.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CallError {
@@ -121,6 +144,20 @@ pub enum CallError {
     NoInstance {
         /// What the worker said.
         message: String,
+    },
+    /// The worker refuses this caller.
+    #[error("{message}")]
+    Denied {
+        /// What the worker said.
+        message: String,
+    },
+    /// Whoever listens at the address is not to be trusted, or does not trust this master.
+    #[error("no connection to {address}: {reason}")]
+    Untrusted {
+        /// Where the worker was expected.
+        address: String,
+        /// Why, and what to do.
+        reason: String,
     },
     /// The worker does not offer this call.
     #[error("the worker does not offer {call}")]
@@ -179,6 +216,15 @@ impl CallError {
         }
     }
 
+    /// That an instance is not the caller's.
+    pub fn of_another(instance: u64) -> Self {
+        Self::Denied {
+            message: format!(
+                "instance {instance:#x} belongs to another certificate: only the master that made it may use or end it"
+            ),
+        }
+    }
+
     /// Whether the worker, or what it knew of the run, is gone: another worker may go on from a state that was kept.
     pub fn is_loss(&self) -> bool {
         match self {
@@ -190,7 +236,11 @@ impl CallError {
             Self::Failed(failure) => {
                 failure.severity() == Severity::Misuse && failure.field.as_deref() == Some(INSTANCE)
             }
-            Self::Unimplemented { .. } | Self::Misplaced { .. } | Self::Interrupted => false,
+            Self::Unimplemented { .. }
+            | Self::Denied { .. }
+            | Self::Untrusted { .. }
+            | Self::Misplaced { .. }
+            | Self::Interrupted => false,
         }
     }
 

@@ -1,8 +1,10 @@
 //! The contract `linchpin.v1` between master and worker, and what its messages mean.
 //!
+//! * [`certificates`]: by which masters and workers know each other;
 //! * [`v1`]: the messages and the gRPC client and server, generated from `proto/linchpin/v1/worker.proto`;
 //! * [`contract`]: the same calls as a plain Rust trait, for peers in one process;
 //! * [`exported`]: states that have left their process;
+//! * [`foreign`]: texts of a peer, made fit to be shown;
 //! * [`exchange`]: what the parts of an exchange must keep to;
 //! * [`joint_load`]: the conditions of joints and the loads that they put on markers;
 //! * [`label`]: which request a reply belongs to;
@@ -13,9 +15,11 @@
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod certificates;
 pub mod contract;
 pub mod exchange;
 pub mod exported;
+pub mod foreign;
 pub mod joint_load;
 pub mod label;
 pub mod polynomial;

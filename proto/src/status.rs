@@ -9,15 +9,11 @@ use tonic::{Code, Status};
 use tonic_types::{ErrorDetails, StatusExt};
 
 use crate::contract::{CallError, INSTANCE};
+use crate::foreign::{LONGEST_NAME, LONGEST_TEXT, clean_lines, shortened};
 use crate::v1::{Failure, Severity};
 
 /// Domain of the error details.
 pub const DOMAIN: &str = "linchpin";
-
-/// Longest message and longest other text of a status, in bytes. A status travels in HTTP headers, and peers drop those
-/// beyond some 16 kB; the message is in there twice, once with up to three bytes for one.
-const LONGEST_MESSAGE: usize = 2048;
-const LONGEST_TEXT: usize = 256;
 
 /// The status that a worker answers with.
 pub fn to_status(error: &CallError) -> Status {
@@ -29,12 +25,14 @@ pub fn to_status(error: &CallError) -> Status {
             let details = ErrorDetails::with_error_info(misuse, DOMAIN, field);
             Status::with_error_details(Code::NotFound, message, details)
         }
+        CallError::Denied { message } => Status::permission_denied(message),
         CallError::Unimplemented { call } => {
             Status::unimplemented(format!("{call} is not offered"))
         }
-        CallError::Unreachable { .. } | CallError::Lost { .. } | CallError::Interrupted => {
-            Status::unavailable(error.to_string())
-        }
+        CallError::Unreachable { .. }
+        | CallError::Untrusted { .. }
+        | CallError::Lost { .. }
+        | CallError::Interrupted => Status::unavailable(error.to_string()),
         CallError::Deadline { .. } => Status::deadline_exceeded(error.to_string()),
         CallError::Misplaced { .. } => Status::data_loss(error.to_string()),
     }
@@ -51,23 +49,14 @@ fn from_failure(failure: &Failure) -> Status {
     for (key, text) in texts {
         metadata.extend(
             text.iter()
-                .map(|text| (key.to_owned(), shortened(text, LONGEST_TEXT))),
+                .map(|text| (key.to_owned(), shortened(text, LONGEST_NAME))),
         );
     }
     for (key, number) in [("t", failure.t), ("step", failure.step)] {
         metadata.extend(number.map(|number| (key.to_owned(), number.to_string())));
     }
     let details = ErrorDetails::with_error_info(failure.severity().as_str_name(), DOMAIN, metadata);
-    Status::with_error_details(code, shortened(&failure.message, LONGEST_MESSAGE), details)
-}
-
-fn shortened(text: &str, longest: usize) -> String {
-    if text.len() <= longest {
-        return text.to_owned();
-    }
-    let is_boundary = |end: &usize| text.is_char_boundary(*end);
-    let end = (0..=longest).rev().find(is_boundary).unwrap_or_default();
-    format!("{} ... ({} more bytes)", &text[..end], text.len() - end)
+    Status::with_error_details(code, shortened(&failure.message, LONGEST_TEXT), details)
 }
 
 /// What a status of a worker means to its master. `call` is the call that was answered so.
@@ -80,6 +69,11 @@ pub fn to_error(call: &'static str, status: &Status) -> CallError {
     }
     let severity = match status.code() {
         Code::Unimplemented => return CallError::Unimplemented { call },
+        Code::PermissionDenied | Code::Unauthenticated => {
+            return CallError::Denied {
+                message: reason(status),
+            };
+        }
         Code::Unavailable | Code::Cancelled => {
             return CallError::Lost {
                 reason: reason(status),
@@ -104,21 +98,23 @@ pub fn to_error(call: &'static str, status: &Status) -> CallError {
         };
     }
     let number = |key| metadata.get(key).and_then(|text| text.parse().ok());
-    CallError::Failed(Failure {
+    let failure = Failure {
         severity: severity.into(),
         message: reason(status),
         field: metadata.get("field").cloned(),
         variable: metadata.get("variable").cloned(),
         t: number("t"),
         step: number("step"),
-    })
+    };
+    CallError::Failed(failure.cleaned())
 }
 
 fn reason(status: &Status) -> String {
     if status.message().is_empty() {
         return format!("status {:?} without a message", status.code());
     }
-    status.message().to_owned()
+    // Of a worker's own making it is no longer than this, but for the note of what is missing.
+    clean_lines(status.message(), 2 * LONGEST_TEXT)
 }
 
 #[cfg(test)]

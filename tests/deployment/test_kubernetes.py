@@ -85,7 +85,7 @@ class Agreement(unittest.TestCase):
         scene = tomllib.loads((FOLDER / "oscillator.toml").read_text())
         self.assertEqual(
             [own["address"] for own in scene["subsystem"]],
-            [f"http://{pod}:{port['containerPort']}" for pod in pods],
+            [f"https://{pod}:{port['containerPort']}" for pod in pods],
         )
 
     def test_the_scene_is_the_oscillator_but_for_the_addresses(self):
@@ -93,6 +93,7 @@ class Agreement(unittest.TestCase):
         local = tomllib.loads((FOLDER.parents[1] / "scenes" / "oscillator.toml").read_text())
         for subsystem in ours["subsystem"]:
             del subsystem["address"]
+        del ours["security"]
         del local["monolithic"]
         self.assertEqual(ours, local)
 
@@ -137,10 +138,31 @@ class Hardening(unittest.TestCase):
         labels = OBJECTS["Namespace", KUSTOMIZATION["namespace"]]["metadata"]["labels"]
         self.assertEqual(labels["pod-security.kubernetes.io/enforce"], "restricted")
 
-    def test_probes_ask_for_the_contract(self):
+    def test_probes_ask_with_the_certificates_of_the_worker(self):
+        own = container("worker")
+        (mount,) = own["volumeMounts"]
         for probe in ("startupProbe", "readinessProbe", "livenessProbe"):
-            grpc = container("worker")[probe]["grpc"]
-            self.assertEqual(grpc, {"port": 50051, "service": "linchpin.v1.Worker"})
+            command = own[probe]["exec"]["command"]
+            self.assertEqual(command[:3], ["/linchpin", "health", "https://127.0.0.1:50051"])
+            self.assertEqual(command[3:5], ["--certificates", mount["mountPath"]])
+
+    def test_every_pod_sees_its_own_certificates_alone(self):
+        names = ["ca.crt", "tls.crt", "tls.key"]
+        (volume,) = PODS["worker"]["spec"]["volumes"]
+        (mount,) = container("worker")["volumeMounts"]
+        self.assertEqual((mount["name"], mount["subPathExpr"]), (volume["name"], "$(POD)"))
+        self.assertIn(mount["mountPath"], container("worker")["args"])
+        pods = [f"worker-{number}" for number in range(WORKERS["replicas"])]
+        found = [
+            (own["secret"]["name"], [(item["key"], item["path"]) for item in own["secret"]["items"]])
+            for own in volume["projected"]["sources"]
+        ]
+        self.assertEqual(found, [(pod, [(name, f"{pod}/{name}") for name in names]) for pod in pods])
+        (own,) = (own for own in PODS["master"]["spec"]["volumes"] if own["name"] == "certificates")
+        self.assertEqual(own["secret"]["secretName"], "master")
+        mounts = {mount["name"]: mount["mountPath"] for mount in container("master")["volumeMounts"]}
+        scene = tomllib.loads((FOLDER / "oscillator.toml").read_text())
+        self.assertEqual(scene["security"]["certificates"], mounts["certificates"])
 
     def test_only_the_master_reaches_workers_and_names(self):
         places = {name: (template["metadata"]["labels"], None) for name, template in PODS.items()}

@@ -115,7 +115,8 @@ impl Project {
     /// What `linchpin health` in the container of a service says of an address.
     fn health(&self, service: &str, address: &str) -> Output {
         let ask = ["exec", "-T", service, "/linchpin", "health", address];
-        run(&mut self.compose(&[&ask[..], &["--timeout", "2"]].concat()))
+        let more = ["--certificates", "/certificates", "--timeout", "2"];
+        run(&mut self.compose(&[&ask[..], &more].concat()))
     }
 
     /// What is left of it.
@@ -256,11 +257,12 @@ fn containers_may_do_nothing_that_they_need_not() {
     });
     // Each reaches itself, but not the other, by name or by address.
     let address = "{{range .NetworkSettings.Networks}}{{.IPAddress}}{{end}}";
-    let other = format!("http://{}:50051", project.inspect("mass2", address));
-    let own = project.health("mass1", "http://mass1:50051");
-    assert!(own.status.success(), "{own:?}");
-    assert!(project.health("mass2", &other).status.success());
-    for address in ["http://mass2:50051", &other] {
+    let other = format!("https://{}:50051", project.inspect("mass2", address));
+    for service in ["mass1", "mass2"] {
+        let own = project.health(service, &format!("https://{service}:50051"));
+        assert!(own.status.success(), "{own:?}");
+    }
+    for address in ["https://mass2:50051", &other] {
         let reached = project.health("mass1", address);
         assert_eq!(reached.status.code(), Some(1), "{reached:?}");
     }

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use linchpin_master::Interrupt;
-use linchpin_master::connection::{Grpc, TimeLimits, UnaryTurns, new_runtime};
+use linchpin_master::connection::{Access, Grpc, TimeLimits, UnaryTurns, new_runtime};
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{self, value::Kind};
 use linchpin_proto::version::PROTOCOL;
@@ -157,7 +157,8 @@ fn serve(workshop: &Workshop) -> (Program, UnaryTurns<Grpc>) {
         answer: Duration::from_secs(10),
     };
     let runtime = new_runtime().unwrap();
-    let grpc = Grpc::connect(program.address(), limits, runtime, Interrupt::default()).unwrap();
+    let (access, interrupt) = (Access::default(), Interrupt::default());
+    let grpc = Grpc::connect(program.address(), limits, &access, runtime, interrupt).unwrap();
     (program, UnaryTurns::new(grpc))
 }
 

@@ -8,7 +8,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 use std::time::Duration;
 
-use linchpin_proto::contract::{CallError, Contract, Hold};
+use linchpin_proto::contract::{CallError, Contract, Hold, Owner};
 use linchpin_proto::label::Reply;
 use linchpin_proto::polynomial::MAX_NODES;
 use linchpin_proto::v1::{self, Failure};
@@ -143,14 +143,15 @@ impl Host {
     fn place(
         &self,
         request: &v1::InitializeRequest,
+        owner: Option<&Owner>,
         instance: Instance,
-    ) -> Result<v1::InitializeReply, Failure> {
+    ) -> Result<v1::InitializeReply, CallError> {
         self.tidy();
         let mut instances = self.change_table();
         if let Some(slot) = instances.get(&request.instance).cloned() {
             // The same request was repeated while the first one was still being answered.
             drop(instances);
-            return slot.initialize_again(request);
+            return slot.initialize_again(request, owner);
         }
         if instances.len() >= self.limits.instances {
             instances.retain(|_, slot| !slot.is_idle(self.limits.idle));
@@ -159,12 +160,29 @@ impl Host {
             return Err(Failure::fatal(format!(
                 "this worker is full: {} instances are in use; end some with Terminate or start another worker",
                 instances.len()
-            )));
+            ))
+            .into());
         }
-        let slot = Slot::new(request, instance, self.limits.lease);
+        let slot = Slot::new(request, owner, instance, self.limits.lease);
         let reply = slot.initialized()?;
         instances.insert(request.instance, Arc::new(slot));
         Ok(reply)
+    }
+
+    fn initialize_as(
+        &self,
+        request: &v1::InitializeRequest,
+        owner: Option<&Owner>,
+    ) -> Result<v1::InitializeReply, CallError> {
+        let existing = self.table().get(&request.instance).cloned();
+        let reply = match existing {
+            Some(slot) => slot.initialize_again(request, owner)?,
+            None => {
+                let instance = without_panic(|| self.build(request))?;
+                self.place(request, owner, instance)?
+            }
+        };
+        Ok(reply.to(request))
     }
 }
 
@@ -183,15 +201,21 @@ impl Contract for Host {
         &self,
         request: &v1::InitializeRequest,
     ) -> Result<v1::InitializeReply, CallError> {
-        let existing = self.table().get(&request.instance).cloned();
-        let reply = match existing {
-            Some(slot) => slot.initialize_again(request)?,
-            None => {
-                let instance = without_panic(|| self.build(request))?;
-                self.place(request, instance)?
-            }
-        };
-        Ok(reply.to(request))
+        self.initialize_as(request, None)
+    }
+
+    fn initialize_for(
+        &self,
+        request: &v1::InitializeRequest,
+        owner: &Owner,
+    ) -> Result<v1::InitializeReply, CallError> {
+        self.initialize_as(request, Some(owner))
+    }
+
+    fn may_use(&self, instance: u64, caller: &Owner) -> bool {
+        let table = self.table();
+        let slot = table.get(&instance);
+        slot.is_none_or(|slot| slot.belongs_to(Some(caller)))
     }
 
     fn snapshot(&self, request: &v1::SnapshotRequest) -> Result<v1::SnapshotReply, CallError> {

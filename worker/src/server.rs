@@ -2,16 +2,20 @@
 
 mod address;
 mod connection;
+mod handshakes;
 mod service;
 
+use std::fs::Permissions;
 use std::future::Future;
+use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
 use linchpin_proto::contract::Contract;
 use linchpin_proto::v1::{FILE_DESCRIPTOR_SET, worker_server::WorkerServer};
-use tokio::net::{TcpListener, UnixListener};
+use rustls::ServerConfig;
+use tokio::net::{TcpListener, UnixListener, UnixSocket};
 use tokio_stream::StreamExt;
 use tokio_stream::wrappers::UnixListenerStream;
 use tonic::transport::server::{Router, TcpIncoming};
@@ -37,13 +41,18 @@ const KEEPALIVE_RETRIES: u32 = 3;
 /// Longest path of a Unix socket in bytes.
 const LONGEST_PATH: usize = 107;
 
-/// Who may reach a worker that has no encryption.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Connections that wait until they are accepted.
+const BACKLOG: u32 = 1024;
+
+/// Who may reach a worker.
+#[derive(Debug, Clone)]
 pub enum Reach {
-    /// This machine: loopback addresses and Unix sockets.
+    /// This machine in plain text: loopback addresses and Unix sockets.
     Local,
     /// Whoever can reach the address. Nothing is encrypted and nobody is asked who they are.
     Anyone,
+    /// Masters with a certificate, by TLS: see `linchpin_proto::certificates`.
+    Masters(Arc<ServerConfig>),
 }
 
 /// Why a worker cannot listen.
@@ -75,10 +84,19 @@ pub enum ListenError {
     },
     /// An address that other machines can reach was not permitted.
     #[error(
-        "{address} can be reached from other machines, and this worker has neither encryption nor a password; \
-         listen on 127.0.0.1, or permit it with --allow-remote"
+        "{address} can be reached from other machines, which plain text is not for: give --certificates FOLDER (linchpin \
+         certificates makes it), listen on 127.0.0.1, or permit it with --plain-text where the network keeps strangers away"
     )]
     NotLocal {
+        /// The address.
+        address: Address,
+    },
+    /// Certificates for a Unix socket.
+    #[error(
+        "{address} takes no certificates: who may connect is decided by the permissions of the socket and its folder; leave \
+         --certificates away, or listen on IP:PORT"
+    )]
+    NoTls {
         /// The address.
         address: Address,
     },
@@ -112,6 +130,7 @@ pub struct Server {
     contract: Arc<dyn Contract>,
     listener: Listener,
     address: Address,
+    reach: Reach,
 }
 
 enum Listener {
@@ -126,8 +145,12 @@ impl Server {
         address: Address,
         reach: Reach,
     ) -> Result<Self, ListenError> {
-        if reach == Reach::Local && !address.is_local() {
-            return Err(ListenError::NotLocal { address });
+        match (&reach, &address) {
+            (Reach::Local, _) if !address.is_local() => {
+                return Err(ListenError::NotLocal { address });
+            }
+            (Reach::Masters(_), Address::Unix(_)) => return Err(ListenError::NoTls { address }),
+            _ => {}
         }
         let fail = |source: std::io::Error| match source.kind() {
             std::io::ErrorKind::AddrInUse => ListenError::InUse {
@@ -147,7 +170,7 @@ impl Server {
             Address::Unix(path) => {
                 check_path(path)?;
                 address::clear_stale(path).map_err(fail)?;
-                let listener = UnixListener::bind(path).map_err(fail)?;
+                let listener = listen_privately(path).map_err(fail)?;
                 (Listener::Unix(listener), address.clone())
             }
         };
@@ -155,12 +178,21 @@ impl Server {
             contract,
             listener,
             address: bound,
+            reach,
         })
     }
 
     /// Where it listens, with the port that the system chose.
     pub fn address(&self) -> &Address {
         &self.address
+    }
+
+    /// Its address as a master writes it in a scene.
+    pub fn url(&self) -> String {
+        match (&self.reach, &self.address) {
+            (Reach::Masters(_), Address::Tcp(address)) => format!("https://{address}"),
+            _ => self.address.to_string(),
+        }
     }
 
     /// Answers calls until `shutdown` completes; calls under way may take [`GRACE`] to finish.
@@ -188,7 +220,7 @@ impl Server {
             let _ = stop.send(());
         };
         let served = tokio::select! {
-            served = run(router, self.listener, shutdown) => served,
+            served = run(router, self.listener, self.reach, shutdown) => served,
             () = overdue(stopped) => Ok(()),
             () = tidy(&*self.contract) => Ok(()),
         };
@@ -219,6 +251,14 @@ fn check_path(path: &Path) -> Result<(), ListenError> {
     }
 }
 
+/// Listens on a socket of the own user alone, whatever the umask: nobody can connect before its permissions are set.
+fn listen_privately(path: &Path) -> std::io::Result<UnixListener> {
+    let socket = UnixSocket::new_stream()?;
+    socket.bind(path)?;
+    std::fs::set_permissions(path, Permissions::from_mode(0o600))?;
+    socket.listen(BACKLOG)
+}
+
 /// Lets the contract end instances whose lease is over; never completes.
 async fn tidy(contract: &dyn Contract) {
     loop {
@@ -239,6 +279,7 @@ async fn overdue(stopped: tokio::sync::oneshot::Receiver<()>) {
 async fn run(
     router: Router,
     listener: Listener,
+    reach: Reach,
     shutdown: impl Future<Output = ()>,
 ) -> Result<(), tonic::transport::Error> {
     match listener {
@@ -249,19 +290,29 @@ async fn run(
                 .with_keepalive(Some(KEEPALIVE))
                 .with_keepalive_interval(Some(KEEPALIVE))
                 .with_keepalive_retries(Some(KEEPALIVE_RETRIES));
-            let incoming = incoming.map(|connection| connection.map(Connection::new));
+            if let Reach::Masters(config) = reach {
+                let incoming = handshakes::accept(incoming, config);
+                let served = router.serve_with_incoming_shutdown(incoming, shutdown);
+                return served.await;
+            }
+            let incoming = incoming.map(plain);
             router
                 .serve_with_incoming_shutdown(incoming, shutdown)
                 .await
         }
         Listener::Unix(listener) => {
             let incoming = UnixListenerStream::new(listener);
-            let incoming = incoming.map(|connection| connection.map(Connection::new));
+            let incoming = incoming.map(plain);
             router
                 .serve_with_incoming_shutdown(incoming, shutdown)
                 .await
         }
     }
+}
+
+/// A connection on which nobody says who they are.
+fn plain<C>(connection: std::io::Result<C>) -> std::io::Result<Connection<C>> {
+    connection.map(|bytes| Connection::new(bytes, None))
 }
 
 /// Reflection is a convenience: the worker serves without it should the descriptors not be readable.

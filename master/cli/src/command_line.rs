@@ -4,8 +4,8 @@ use clap::{ArgAction, Parser, Subcommand};
 use tracing::level_filters::LevelFilter;
 
 use crate::commands::{
-    CommandError, check, completions, conformance, converge, describe, diff, export, graph, health,
-    init, instances, man, models, plot, report, run, spectrum, stability, worker,
+    CommandError, certificates, check, completions, conformance, converge, describe, diff, export,
+    graph, health, init, instances, man, models, plot, report, run, spectrum, stability, worker,
 };
 use crate::log::Filter;
 use crate::version::LONG;
@@ -60,6 +60,7 @@ enum Command {
     Describe(describe::Arguments),
     Health(health::Arguments),
     Instances(instances::Arguments),
+    Certificates(certificates::Arguments),
     Conformance(conformance::Arguments),
     Converge(converge::Arguments),
     Stability(stability::Arguments),
@@ -95,6 +96,7 @@ impl Arguments {
             Command::Describe(arguments) => describe::execute(arguments),
             Command::Health(arguments) => health::execute(arguments),
             Command::Instances(arguments) => instances::execute(arguments),
+            Command::Certificates(arguments) => certificates::execute(arguments),
             Command::Conformance(arguments) => conformance::execute(arguments),
             Command::Converge(arguments) => converge::execute(arguments),
             Command::Stability(arguments) => stability::execute(arguments),

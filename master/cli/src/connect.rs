@@ -7,12 +7,13 @@ use std::time::Duration;
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
-    ConnectOptions, Connection, Direct, Launcher, Reached, Renewable, StartError, Threaded,
+    Access, ConnectOptions, Connection, Direct, Launcher, Reached, Renewable, StartError, Threaded,
     TimeLimits, UnaryTurns, WorkerProcess, connect, new_runtime, reach_started,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::ground::GROUND;
 use linchpin_models::models;
+use linchpin_proto::certificates::Certificates;
 use linchpin_worker::Host;
 use tokio::runtime::Runtime;
 
@@ -33,6 +34,7 @@ pub struct Connector {
     interrupt: Interrupt,
     runtime: OnceLock<Arc<Runtime>>,
     launcher: OnceLock<Arc<Launcher>>,
+    access: OnceLock<Access>,
     /// Processes that were started and are not connected yet.
     begun: Mutex<BTreeMap<String, WorkerProcess>>,
 }
@@ -45,6 +47,7 @@ impl Connector {
             interrupt: Interrupt::default(),
             runtime: OnceLock::new(),
             launcher: OnceLock::new(),
+            access: OnceLock::new(),
             begun: Mutex::default(),
         }
     }
@@ -150,6 +153,7 @@ impl Connector {
                 answer: Duration::from_secs_f64(scene.run.deadline),
             },
             polling: polling(scene),
+            access: self.access(scene)?,
             runtime: self.runtime()?,
             interrupt: self.interrupt.clone(),
         })
@@ -159,9 +163,32 @@ impl Connector {
         made(&self.runtime, || Ok(new_runtime()?)).cloned()
     }
 
+    /// The certificates are read once, if any worker takes them.
+    fn access(&self, scene: &Scene) -> Result<Access, StartError> {
+        let is_tls = |own: &Subsystem| match &own.served {
+            Served::Address(address) => address.starts_with("https:"),
+            _ => false,
+        };
+        let folder = scene.security.certificates.as_deref();
+        let folder = folder.filter(|_| scene.subsystems.iter().any(is_tls));
+        made(&self.access, || access(folder, scene.security.plain_text)).cloned()
+    }
+
     fn launcher(&self) -> Result<&Arc<Launcher>, StartError> {
         made(&self.launcher, || Ok(Arc::new(Launcher::new()?)))
     }
+}
+
+/// By what right workers are called: with the certificates of a folder, if there is one.
+///
+/// # Errors
+/// [`StartError::Certificates`].
+pub fn access(certificates: Option<&Path>, plain_text: bool) -> Result<Access, StartError> {
+    let tls = match certificates {
+        Some(folder) => Some(Certificates::read(folder)?.for_master()?),
+        None => None,
+    };
+    Ok(Access { tls, plain_text })
 }
 
 /// Whether it needs no process: nothing is computed.

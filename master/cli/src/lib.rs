@@ -1,6 +1,7 @@
 //! The command line tool `linchpin`: runs scenes, studies them, serves the built-in models.
 //!
 //! * [`command_line`]: the arguments of the program;
+//! * [`certificates`]: an authority, and what it certifies for one scene;
 //! * [`conformance`]: whether a worker does what the contract and mechanics ask of it;
 //! * [`connect`]: workers of a scene, in processes of their own or in this one;
 //! * [`simulate`]: one run;
@@ -23,6 +24,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod animation;
+pub mod certificates;
 pub mod closed_form;
 pub mod command_line;
 pub mod commands;

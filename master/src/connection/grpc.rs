@@ -2,7 +2,7 @@
 
 use std::future::Future;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::label::{Labelled, check_label};
@@ -10,18 +10,18 @@ use linchpin_proto::status::to_error;
 use linchpin_proto::v1::worker_client::WorkerClient;
 use linchpin_proto::v1::*;
 use tokio::runtime::Runtime;
-use tonic::transport::{Channel, Endpoint};
+use tonic::transport::Channel;
 use tonic::{Response, Status};
 
+use super::address::Access;
+use super::channel::{Opened, open};
 use super::time_limits::TimeLimits;
+use super::waiting::{unless, within};
+use super::witness::Witness;
 use crate::interrupt::Interrupt;
 
 /// Largest message that is accepted, in bytes.
 const MESSAGE_LIMIT: usize = 16 << 20;
-
-/// First pause between two attempts to reach a worker that is starting; doubled up to [`LONGEST_PAUSE`].
-const FIRST_PAUSE: Duration = Duration::from_millis(2);
-const LONGEST_PAUSE: Duration = Duration::from_millis(100);
 
 /// Longest time for the end of an instance: a worker that hangs must not hold up the end of a run.
 const TERMINATE_TIMEOUT: Duration = Duration::from_secs(1);
@@ -32,6 +32,8 @@ pub struct Grpc {
     pub(super) runtime: Arc<Runtime>,
     pub(super) limits: TimeLimits,
     pub(super) interrupt: Interrupt,
+    address: String,
+    witness: Witness,
 }
 
 /// A runtime for the connections of one thread. It runs only while a call blocks on it.
@@ -45,13 +47,18 @@ pub fn new_runtime() -> std::io::Result<Arc<Runtime>> {
 impl Grpc {
     /// Connects to `address`, trying again until the time limit for starts is over. After an `interrupt`, calls fail at
     /// once.
+    ///
+    /// # Errors
+    /// [`CallError::Unreachable`]; [`CallError::Untrusted`], which calls may end with as well: that a worker refuses the certificate
+    /// of its master shows only at the first of them.
     pub fn connect(
         address: &str,
         limits: TimeLimits,
+        access: &Access,
         runtime: Arc<Runtime>,
         interrupt: Interrupt,
     ) -> Result<Self, CallError> {
-        let channel = open(address, limits, &runtime, &interrupt)?;
+        let Opened { channel, witness } = open(address, limits, access, &runtime, &interrupt)?;
         let client = WorkerClient::new(channel)
             .max_decoding_message_size(MESSAGE_LIMIT)
             .max_encoding_message_size(MESSAGE_LIMIT);
@@ -60,6 +67,8 @@ impl Grpc {
             runtime,
             limits,
             interrupt,
+            address: address.to_owned(),
+            witness,
         })
     }
 
@@ -75,94 +84,20 @@ impl Grpc {
         let answer = call(self.client.clone(), request.clone());
         let answer = unless(&self.interrupt, within(self.limits.answer, answer));
         let answer = self.runtime.block_on(answer)??;
-        let reply = answer.map_err(|status| to_error(name, &status))?;
+        let failed = |status| self.witness.explain(&self.address, to_error(name, &status));
+        let reply = answer.map_err(failed)?;
         let reply = reply.into_inner();
         check_label(name, request, &reply)?;
         Ok(reply)
     }
 }
 
-/// An open channel to `address`; tries again until the time limit for starts is over.
-pub(super) fn open(
-    address: &str,
-    limits: TimeLimits,
-    runtime: &Runtime,
-    interrupt: &Interrupt,
-) -> Result<Channel, CallError> {
-    let unreachable = |reason: String| CallError::Unreachable {
-        address: address.into(),
-        reason,
-    };
-    let endpoint = Endpoint::from_shared(address.to_owned())
-        .map_err(|error| unreachable(innermost(&error)))?
-        .tcp_nodelay(true)
-        .connect_timeout(limits.start);
-    runtime
-        .block_on(unless(interrupt, reach(&endpoint, limits.start)))?
-        .map_err(|error| unreachable(innermost(&error)))
-}
-
-/// Gives up waiting for `answer` after `limit`.
-pub(super) async fn within<T>(
-    limit: Duration,
-    answer: impl Future<Output = T>,
-) -> Result<T, CallError> {
-    until(Instant::now() + limit, limit, answer).await
-}
-
-/// Gives up waiting for `answer` at `end`, which is `limit` after the request.
-pub(super) async fn until<T>(
-    end: Instant,
-    limit: Duration,
-    answer: impl Future<Output = T>,
-) -> Result<T, CallError> {
-    let late = |_| CallError::Deadline {
-        seconds: limit.as_secs_f64(),
-    };
-    tokio::time::timeout_at(end.into(), answer)
-        .await
-        .map_err(late)
-}
-
-/// Gives up waiting for `answer` after an interrupt.
-pub(super) async fn unless<T>(
-    interrupt: &Interrupt,
-    answer: impl Future<Output = T>,
-) -> Result<T, CallError> {
-    tokio::select! {
-        biased;
-        answer = answer => Ok(answer),
-        () = interrupt.requested() => Err(CallError::Interrupted),
-    }
-}
-
-async fn reach(endpoint: &Endpoint, limit: Duration) -> Result<Channel, tonic::transport::Error> {
-    let give_up = Instant::now() + limit;
-    let mut pause = FIRST_PAUSE;
-    loop {
-        match endpoint.connect().await {
-            Ok(channel) => return Ok(channel),
-            Err(error) if Instant::now() + pause >= give_up => return Err(error),
-            Err(_) => tokio::time::sleep(pause).await,
-        }
-        pause = (2 * pause).min(LONGEST_PAUSE);
-    }
-}
-
-/// What went wrong at the bottom: the transport's own words for the top say only "transport error".
-fn innermost(error: &dyn std::error::Error) -> String {
-    let mut error = error;
-    while let Some(source) = error.source() {
-        error = source;
-    }
-    error.to_string()
-}
-
 impl Contract for Grpc {
     fn describe(&self, request: &DescribeRequest) -> Result<DescribeReply, CallError> {
-        self.call("Describe", request, async |mut client, request| {
+        let reply = self.call("Describe", request, async |mut client, request| {
             client.describe(request).await
-        })
+        })?;
+        Ok(reply.cleaned())
     }
 
     fn initialize(&self, request: &InitializeRequest) -> Result<InitializeReply, CallError> {
@@ -229,8 +164,12 @@ impl Contract for Grpc {
         &self,
         request: &ListInstancesRequest,
     ) -> Result<ListInstancesReply, CallError> {
-        self.call("ListInstances", request, async |mut client, request| {
+        let reply = self.call("ListInstances", request, async |mut client, request| {
             client.list_instances(request).await
+        })?;
+        let instances = reply.instances.into_iter();
+        Ok(ListInstancesReply {
+            instances: instances.map(InstanceState::cleaned).collect(),
         })
     }
 

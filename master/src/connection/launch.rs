@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use linchpin_proto::foreign::clean;
 use rustix::process::{Pid, Signal, kill_process_group};
 use tempfile::TempDir;
 
@@ -24,8 +25,9 @@ const EXIT_TIMEOUT: Duration = Duration::from_millis(100);
 /// Longest path of a Unix socket in bytes.
 const LONGEST_PATH: usize = 107;
 
-/// Lines of error output that are shown when a worker dies.
+/// Lines of error output that are shown when a worker dies, and bytes of each.
 const LAST_LINES: usize = 6;
+const LONGEST_LINE: usize = 500;
 
 /// Why a worker process could not be started.
 #[derive(Debug, thiserror::Error)]
@@ -196,7 +198,9 @@ impl WorkerProcess {
         let text = std::fs::read(&self.log).unwrap_or_default();
         let text = String::from_utf8_lossy(&text);
         let lines: Vec<&str> = text.lines().collect();
-        lines[lines.len().saturating_sub(LAST_LINES)..].join("\n")
+        let last = lines[lines.len().saturating_sub(LAST_LINES)..].iter();
+        let last: Vec<String> = last.map(|line| clean(line, LONGEST_LINE)).collect();
+        last.join("\n")
     }
 }
 

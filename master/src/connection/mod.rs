@@ -3,6 +3,8 @@
 //! A [`Connection`] splits the exchange in two, so that all workers compute at the same time: the master posts to
 //! every worker, then collects from every worker.
 
+mod address;
+mod channel;
 mod direct;
 mod exit_message;
 mod grpc;
@@ -15,6 +17,8 @@ mod stream;
 mod threaded;
 mod time_limits;
 mod unary_turns;
+mod waiting;
+mod witness;
 mod worker;
 
 use std::sync::Arc;
@@ -27,6 +31,7 @@ use tokio::runtime::Runtime;
 
 use crate::interrupt::Interrupt;
 
+pub use address::{Access, Host, NoAccess, WorkerAddress};
 pub use direct::Direct;
 pub use exit_message::ExitMessage;
 pub use grpc::{Grpc, new_runtime};
@@ -53,13 +58,15 @@ pub struct ConnectOptions {
     pub limits: TimeLimits,
     /// How long to poll for an answer on the exchange stream before sleeping: see [`ExchangeStream::polling`].
     pub polling: Duration,
+    /// By what right it is called.
+    pub access: Access,
     /// Drives all streams of a master.
     pub runtime: Arc<Runtime>,
     /// Ends every wait for the worker.
     pub interrupt: Interrupt,
 }
 
-/// Connects to the worker at `address` (`http://HOST:PORT` or `unix:/PATH`) and chooses its route: the exchange stream
+/// Connects to the worker at `address` (`https://HOST:PORT`, `http://HOST:PORT` or `unix:/PATH`) and chooses its route: the exchange stream
 /// where the worker serves one that knows every part of a request, otherwise the unary calls on a thread of its own.
 pub fn connect(address: &str, options: &ConnectOptions) -> Result<Box<dyn Connection>, CallError> {
     let grpc = connect_on(Arc::clone(&options.runtime), address, options)?;
@@ -87,7 +94,8 @@ fn connect_on(
     address: &str,
     options: &ConnectOptions,
 ) -> Result<Grpc, CallError> {
-    Grpc::connect(address, options.limits, runtime, options.interrupt.clone())
+    let interrupt = options.interrupt.clone();
+    Grpc::connect(address, options.limits, &options.access, runtime, interrupt)
 }
 
 fn serves_exchange(description: &v1::DescribeReply, model: Option<&str>) -> bool {

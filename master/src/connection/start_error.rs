@@ -1,5 +1,6 @@
 //! Why there is no worker.
 
+use linchpin_proto::certificates::CertificatesError;
 use linchpin_proto::contract::CallError;
 
 use super::exit_message::ExitMessage;
@@ -28,6 +29,9 @@ pub enum StartError {
         /// Last lines of its error output.
         exit_message: ExitMessage,
     },
+    /// The certificates of the master cannot be used.
+    #[error(transparent)]
+    Certificates(#[from] CertificatesError),
     /// It does not answer.
     #[error("{0}{advice}", advice = advice(.0))]
     Call(#[from] CallError),
@@ -48,6 +52,10 @@ fn advice(error: &CallError) -> &'static str {
         CallError::Lost { .. } | CallError::Unimplemented { .. } | CallError::Misplaced { .. } => {
             "; is it a worker of the contract linchpin.v1?"
         }
-        CallError::Failed(_) | CallError::NoInstance { .. } | CallError::Interrupted => "",
+        CallError::Failed(_)
+        | CallError::NoInstance { .. }
+        | CallError::Denied { .. }
+        | CallError::Untrusted { .. }
+        | CallError::Interrupted => "",
     }
 }

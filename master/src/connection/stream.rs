@@ -15,7 +15,7 @@ use tokio_stream::wrappers::UnboundedReceiverStream;
 use tonic::{Response, Status, Streaming};
 
 use super::Grpc;
-use super::grpc::{unless, until};
+use super::waiting::{unless, until};
 use super::worker::Connection;
 
 /// One bidirectional stream for the whole run.
@@ -114,7 +114,7 @@ impl Connection for ExchangeStream {
         self.replies = Replies::Open(replies);
         *reply = answer;
         match reply.failure.take() {
-            Some(failure) => Err(CallError::Failed(failure)),
+            Some(failure) => Err(CallError::Failed(failure.cleaned())),
             None => Ok(()),
         }
     }

@@ -324,16 +324,26 @@ pub enum SceneErrorKind {
         subsystem: String,
     },
     /// An address that cannot be reached by this program.
-    #[error("`{key}` = {address:?} is not an address; it must be http://HOST:PORT or unix:/PATH")]
+    #[error(
+        "`{key}` = {address:?} is not an address; it must be https://HOST:PORT, http://HOST:PORT or unix:/PATH"
+    )]
     InvalidAddress {
         /// The key.
         key: String,
         /// The address.
         address: String,
     },
-    /// An encrypted connection.
-    #[error("`{key}` = {address:?}: TLS is not supported yet")]
-    TlsNotSupported {
+    /// An encrypted connection without certificates.
+    #[error("`{key}` = {address:?} is reached by TLS, and the scene names no certificates")]
+    NoCertificates {
+        /// The key.
+        key: String,
+        /// The address.
+        address: String,
+    },
+    /// A connection to another machine that nothing protects.
+    #[error("`{key}` = {address:?} would be reached in plain text over a network")]
+    PlainText {
         /// The key.
         key: String,
         /// The address.
@@ -401,9 +411,15 @@ impl SceneErrorKind {
                 "give model = \"oscillator\" (built in), address = \"http://HOST:PORT\" or command = [\"PROGRAM\"]".into(),
             ),
             Self::ServedTwice { .. } => Some("remove one of them".into()),
-            Self::TlsNotSupported { .. } => {
-                Some("use http:// or unix:/ on a network that you trust".into())
-            }
+            Self::NoCertificates { .. } => Some(
+                "make them with linchpin certificates DIR SCENE, and name those of the master: security.certificates = \"DIR/master\""
+                    .into(),
+            ),
+            Self::PlainText { .. } => Some(
+                "write https:// and name certificates (linchpin certificates makes them), or permit it with \
+                 security.plain_text = true where the network keeps strangers away"
+                    .into(),
+            ),
             Self::OverrideKey { .. } => Some(
                 "write SECTION.KEY as in coupling.degree; entries of a list go by name, as in subsystem.mass1.parameters.c, or `*` for all"
                     .into(),

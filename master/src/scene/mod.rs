@@ -18,6 +18,7 @@ mod remedy;
 mod resolve;
 mod resolved;
 mod run;
+mod security;
 mod spectrum;
 mod stability_rules;
 mod step_control;
@@ -42,7 +43,7 @@ pub use resolve::SCENE_KEYS;
 pub use resolved::{
     Axis, Calls, Case, Connection, ConvergeSettings, Coupling, Degree, Geometry, ImpactsAtJoints,
     Increment, Index, Iterations, Jacobian, Joint, JointKind, Loads, Method, Monolithic, Order,
-    Otherwise, Output, Over, Panel, Reference, RunSettings, Served, Side, Spring,
+    Otherwise, Output, Over, Panel, Reference, RunSettings, Security, Served, Side, Spring,
     StabilitySettings, StepControl, Subsystem, Variant,
 };
 pub use spectrum::{
@@ -54,7 +55,6 @@ pub use study::{
     Measure, STUDY_KEYS, Settings, StudyFile, StudyScene, StudySetting, is_study, load_study,
     parse_study,
 };
-pub use subsystem::is_worker_address;
 pub use warning::Warning;
 pub use warnings::warnings;
 pub use whole::Scene;

@@ -9,6 +9,7 @@ use super::monolithic;
 use super::output;
 use super::resolved::Subsystem;
 use super::run;
+use super::security;
 use super::subsystem;
 use super::sweeps;
 use super::whole::Scene;
@@ -21,7 +22,7 @@ use crate::reading::reader::{Problems, Section, collect, given};
 use crate::reading::written::Written;
 
 /// The tables of a scene file.
-pub const SCENE_KEYS: [Key; 11] = [
+pub const SCENE_KEYS: [Key; 12] = [
     Key::new("scene", Takes::Table(|| HEAD.to_vec()))
         .required("[scene] with name and t_end")
         .means("name and times"),
@@ -43,6 +44,9 @@ pub const SCENE_KEYS: [Key; 11] = [
     Key::new("run", Takes::Table(|| run::KEYS.to_vec()))
         .default("its defaults")
         .means("how long workers may take"),
+    Key::new("security", Takes::Table(|| security::KEYS.to_vec()))
+        .default("its defaults")
+        .means("certificates, and whether plain text may leave the machine"),
     Key::new("case", Takes::Tables(|| sweeps::CASE.to_vec()))
         .default("none")
         .means("a variant; one command runs all of them"),
@@ -91,6 +95,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         connections,
         output,
         run,
+        security,
         cases,
         converge,
         stability,
@@ -108,7 +113,10 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
     let mut subsystem_names = Registry::collect("subsystem", &subsystem_tables, None, problems);
     let has_ground = joint::any_to(GROUND, &joint_tables) && subsystem_names.imply(GROUND);
     Registry::collect("joint", &joint_tables, Some(&subsystem_names), problems);
-    let mut subsystems = collect(&subsystem_tables, |table| subsystem::read(table, problems));
+    let security = security::read(security, problems);
+    let mut subsystems = collect(&subsystem_tables, |table| {
+        subsystem::read(table, security.as_ref(), problems)
+    });
     if let Some(subsystems) = subsystems.as_mut().filter(|_| has_ground) {
         subsystems.push(Subsystem::built_in(GROUND));
     }
@@ -145,6 +153,7 @@ fn read(written: &Arc<Written>, problems: &mut Problems<'_>) -> Option<Scene> {
         connections: connections?,
         output: output?,
         run: run?,
+        security: security?,
         cases: cases?,
         converge: converge?,
         stability: stability?,

@@ -20,7 +20,7 @@ pub use coupling::{
 pub enum Served {
     /// A built-in model.
     BuiltIn,
-    /// A worker that runs already, at `http://HOST:PORT` or `unix:/PATH`.
+    /// A worker that runs already, at `https://HOST:PORT`, `http://HOST:PORT` or `unix:/PATH`.
     Address(String),
     /// A program that the run starts: the program and its arguments.
     Command(Vec<String>),
@@ -169,6 +169,15 @@ pub struct RunSettings {
     pub checkpoint_every: f64,
     /// Macro steps between two checkpoints in place of a time.
     pub checkpoint_steps: Option<usize>,
+}
+
+/// By what right the master calls workers on other machines.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Security {
+    /// Folder with its certificates, see `linchpin_proto::certificates`; absent: no TLS.
+    pub certificates: Option<PathBuf>,
+    /// Whether plain text may leave this machine; default false.
+    pub plain_text: bool,
 }
 
 /// A variant of the scene; one command runs all of them side by side.

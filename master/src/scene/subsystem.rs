@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use linchpin_proto::v1::{self, value::Kind};
-use tonic::transport::Uri;
 
-use super::resolved::{Calls, Served, Subsystem};
+use super::resolved::{Calls, Security, Served, Subsystem};
+use crate::connection::{NoAccess, WorkerAddress};
 use crate::reading::error_kind::SceneErrorKind;
 use crate::reading::key::{Key, Takes, texts};
 use crate::reading::reader::{Field, Problems, Section, choice, collect, given, is_name};
@@ -20,7 +20,7 @@ pub(super) const KEYS: [Key; 8] = [
         .means("for others: the only model of the worker"),
     Key::new("address", Takes::Text)
         .default("")
-        .means("a worker that runs already: `\"http://HOST:PORT\"` or `\"unix:/PATH\"`"),
+        .means("a worker that runs already: `\"https://HOST:PORT\"`, `\"http://HOST:PORT\"` on this machine, or `\"unix:/PATH\"`"),
     Key::new("command", Takes::List(&Takes::Text, COMMAND))
         .default("")
         .means(
@@ -60,7 +60,11 @@ const VALUE: &str = "a number, a text, true or false, or a list of numbers";
 const FILLED_TABLE: &str = "a table with at least one key";
 const COMMAND: &str = "a list of texts, the program first";
 
-pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option<Subsystem> {
+pub(super) fn read(
+    section: &Section<'_>,
+    security: Option<&Security>,
+    problems: &mut Problems<'_>,
+) -> Option<Subsystem> {
     let [
         name,
         model,
@@ -78,7 +82,7 @@ pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
         model => Some(model.to_owned()),
     });
     let served = match (address, command) {
-        (Some(address), None) => read_address(&address, problems).map(Served::Address),
+        (Some(address), None) => read_address(&address, security, problems).map(Served::Address),
         (None, Some(command)) => read_command(&command, problems).map(Served::Command),
         (None, None) if is_named => Some(Served::BuiltIn),
         (None, None) => {
@@ -110,39 +114,30 @@ pub(super) fn read(section: &Section<'_>, problems: &mut Problems<'_>) -> Option
     })
 }
 
-fn read_address(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<String> {
+fn read_address(
+    field: &Field<'_>,
+    security: Option<&Security>,
+    problems: &mut Problems<'_>,
+) -> Option<String> {
     let address = field.text(problems)?;
-    if is_worker_address(address) {
-        return Some(address.to_owned());
-    }
-    let (key, address) = (field.key.clone(), address.to_owned());
-    let kind = if address.starts_with("https://") {
-        SceneErrorKind::TlsNotSupported { key, address }
-    } else {
-        SceneErrorKind::InvalidAddress { key, address }
+    let (key, own) = (field.key.clone(), address.to_owned());
+    let Some(parsed) = WorkerAddress::parse(address) else {
+        field.report(
+            SceneErrorKind::InvalidAddress { key, address: own },
+            problems,
+        );
+        return None;
+    };
+    // Without it there is another mistake, which is told.
+    let security = security?;
+    let has_certificates = security.certificates.is_some();
+    let kind = match parsed.check(has_certificates, security.plain_text) {
+        Ok(()) => return Some(own),
+        Err(NoAccess::NoCertificates) => SceneErrorKind::NoCertificates { key, address: own },
+        Err(NoAccess::PlainText) => SceneErrorKind::PlainText { key, address: own },
     };
     field.report(kind, problems);
     None
-}
-
-/// Whether a text is the address of a worker: `http://HOST:PORT` or `unix:/PATH`.
-pub fn is_worker_address(text: &str) -> bool {
-    is_network_address(text) || is_socket_path(text)
-}
-
-fn is_network_address(address: &str) -> bool {
-    address.parse::<Uri>().is_ok_and(|uri| {
-        let has_host = uri.host().is_some_and(|host| !host.is_empty());
-        let no_more = uri.path_and_query().is_none_or(|path| path == "/");
-        let has_port = uri.port_u16().is_some_and(|port| port > 0);
-        uri.scheme_str() == Some("http") && has_host && has_port && no_more
-    })
-}
-
-fn is_socket_path(address: &str) -> bool {
-    address
-        .strip_prefix("unix:/")
-        .is_some_and(|path| !path.trim_matches('/').is_empty() && !path.contains('\0'))
 }
 
 fn read_command(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<Vec<String>> {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::resolved::{
-    Case, Connection, ConvergeSettings, Coupling, Joint, Monolithic, Output, RunSettings,
+    Case, Connection, ConvergeSettings, Coupling, Joint, Monolithic, Output, RunSettings, Security,
     StabilitySettings, Subsystem,
 };
 use crate::reading::error::{SceneError, SceneErrors};
@@ -33,6 +33,8 @@ pub struct Scene {
     pub output: Output,
     /// How the run treats its workers.
     pub run: RunSettings,
+    /// By what right workers on other machines are called.
+    pub security: Security,
     /// Variants that one command runs side by side.
     pub cases: Vec<Case>,
     /// The convergence study.
@@ -45,7 +47,7 @@ pub struct Scene {
 }
 
 /// Sections that do not decide about a run.
-const APART: [&str; 4] = ["case", "converge", "monolithic", "stability"];
+const APART: [&str; 5] = ["case", "converge", "monolithic", "security", "stability"];
 
 impl Scene {
     /// The same with macro steps of one length: studies look at the method, not at the control of its steps.

@@ -1,11 +1,15 @@
 //! Macro steps of the two-mass oscillator.
 
+use std::time::Duration;
+
+use linchpin::certificates::Wanted;
 use linchpin::connect::{Connector, Place};
 use linchpin_master::CoSimulation;
 use linchpin_master::scene::{Scene, parse};
 use linchpin_master::setup::Options;
 use linchpin_proto::v1;
 use prost::Message;
+use tempfile::TempDir;
 
 use crate::process::Process;
 use crate::report::Series;
@@ -79,23 +83,46 @@ pub fn free_port() -> u16 {
         .port()
 }
 
+/// Two workers at ports of their own, and the settings of a scene that name them.
+fn tcp_workers(scheme: &str, flags: &[&str]) -> ([Process; 2], [String; 2]) {
+    let ports = [free_port(), free_port()];
+    let workers = ports.map(|port| {
+        let address = format!("127.0.0.1:{port}");
+        let command = ["worker", "--exit-with-stdin", "--listen", &address];
+        Process::start(&[&command[..], flags].concat())
+    });
+    let address = |number: usize| {
+        let port = ports[number - 1];
+        format!("subsystem.mass{number}.address={scheme}://127.0.0.1:{port}")
+    };
+    (workers, [1, 2].map(address))
+}
+
+/// A folder of certificates, which goes when the workers have read it.
+fn certificates() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let wanted = Wanted {
+        scene: "oscillator".into(),
+        workers: [("mass1".into(), vec!["127.0.0.1".into()])].into(),
+        lifetime: Duration::from_secs(86_400),
+    };
+    wanted.make(folder.path(), None).unwrap();
+    folder
+}
+
 /// All ways of a macro step.
 pub fn all() -> Vec<Series> {
     let plain = scene(&[LONG]);
     let unary = scene(&[LONG, "subsystem.*.calls=unary"]);
     let unprotected = scene(&[LONG, "run.recoveries=0"]);
-    let ports = [free_port(), free_port()];
-    let tcp_workers = ports.map(|port| {
-        let address = format!("127.0.0.1:{port}");
-        Process::start(&["worker", "--exit-with-stdin", "--listen", &address])
-    });
-    let addresses = [1, 2].map(|number| {
-        format!(
-            "subsystem.mass{number}.address=http://127.0.0.1:{}",
-            ports[number - 1]
-        )
-    });
+    let (tcp_workers, addresses) = tcp_workers("http", &[]);
     let tcp = scene(&[LONG, &addresses[0], &addresses[1]]);
+    let certificates = certificates();
+    let folder = |name: &str| certificates.path().join(name).display().to_string();
+    let flags = ["--certificates", &folder("workers/mass1")];
+    let (tls_workers, addresses) = self::tcp_workers("https", &flags);
+    let own = format!("security.certificates={}", folder("master"));
+    let tls = scene(&[LONG, &own, &addresses[0], &addresses[1]]);
     vec![
         Running::start(&plain, Place::InProcess, Vec::new()).series("macro step, in process"),
         Running::start(&plain, Place::Processes, Vec::new())
@@ -104,6 +131,8 @@ pub fn all() -> Vec<Series> {
             .series("the same without recovery"),
         Running::start(&tcp, Place::Processes, tcp_workers.into())
             .series("macro step, 2 processes, stream, TCP"),
+        Running::start(&tls, Place::Processes, tls_workers.into())
+            .series("macro step, 2 processes, stream, TCP with TLS"),
         Running::start(&unary, Place::Processes, Vec::new())
             .series("macro step, 2 processes, unary calls, Unix sockets"),
     ]

@@ -6,7 +6,9 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use linchpin_master::Interrupt;
-use linchpin_master::connection::{Connection, ExchangeStream, Grpc, TimeLimits, new_runtime};
+use linchpin_master::connection::{
+    Access, Connection, ExchangeStream, Grpc, TimeLimits, new_runtime,
+};
 use linchpin_models::models;
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1;
@@ -180,6 +182,7 @@ pub fn grpc(address: &str) -> Grpc {
     Grpc::connect(
         address,
         limits,
+        &Access::default(),
         new_runtime().unwrap(),
         Interrupt::default(),
     )

@@ -192,7 +192,7 @@ fn describe_without_a_worker() {
     nobody.takes_less_than(Duration::from_secs(2));
     let nobody = workshop.run(&["describe", "unix:/nowhere.sock", "--timeout", "0.2"]);
     nobody.fails(1, &["unix:/nowhere.sock", "is the worker running"]);
-    for address in ["127.0.0.1:9", "https://127.0.0.1:9", "unix:relative", ""] {
+    for address in ["127.0.0.1:9", "tcp://127.0.0.1:9", "unix:relative", ""] {
         let refused = workshop.run(&["describe", address]);
         refused
             .fails(2, &["http://HOST:PORT or unix:/PATH"])

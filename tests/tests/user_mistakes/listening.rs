@@ -34,7 +34,7 @@ fn an_address_that_others_can_reach() {
     for address in ["0.0.0.0:0", "[::]:0"] {
         workshop
             .run(&listen(address))
-            .fails(1, &[address, "other machines", "--allow-remote"]);
+            .fails(1, &[address, "other machines", "--plain-text"]);
     }
 }
 

@@ -148,8 +148,9 @@ class Program(unittest.TestCase):
     def test_other_machines_reach_it_only_if_that_is_permitted(self):
         said = self.ends(self.start("--listen", "0.0.0.0:0"), 1)
         self.assertIn("can be reached from other machines", said)
-        self.assertIn("--allow-remote", said)
-        process = self.start("--listen", "0.0.0.0:0", "--allow-remote")
+        self.assertIn("--certificates FOLDER", said)
+        self.assertIn("--plain-text", said)
+        process = self.start("--listen", "0.0.0.0:0", "--plain-text")
         self.assertIn("listening on http://0.0.0.0:", process.stdout.readline())
 
 
@@ -177,7 +178,7 @@ class Addresses(unittest.TestCase):
 
     def test_an_address_of_another_machine(self):
         with self.assertRaisesRegex(ListenError, "cannot listen on http://192.0.2.1:7: "):
-            Address.of("192.0.2.1:7").check(allow_remote=True)
+            Address.of("192.0.2.1:7").check(plain_text=True)
 
     def test_a_port_that_has_just_been_left_is_free(self):
         with socket.create_server(("127.0.0.1", 0)) as server:

@@ -3,7 +3,7 @@
 use std::sync::{Mutex, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
-use linchpin_proto::contract::Hold;
+use linchpin_proto::contract::{CallError, Hold, Owner};
 use linchpin_proto::v1::{self, Failure};
 use linchpin_proto::version::knows_leases;
 
@@ -12,6 +12,8 @@ use crate::instance::Instance;
 /// An instance with what decides about its end.
 pub(super) struct Slot {
     request: v1::InitializeRequest,
+    /// Who alone may use it; `None`: whoever reaches the worker.
+    owner: Option<Owner>,
     began: Instant,
     /// How long it waits when what held it has ended; `None`: until Terminate.
     lease: Option<Duration>,
@@ -27,10 +29,16 @@ struct Occupant {
 
 impl Slot {
     /// A place for an instance that `request` has made. Masters that know nothing of leases have none.
-    pub fn new(request: &v1::InitializeRequest, instance: Instance, lease: Duration) -> Self {
+    pub fn new(
+        request: &v1::InitializeRequest,
+        owner: Option<&Owner>,
+        instance: Instance,
+        lease: Duration,
+    ) -> Self {
         let now = Instant::now();
         Self {
             request: request.clone(),
+            owner: owner.cloned(),
             began: now,
             lease: knows_leases(request.protocol.as_ref()).then_some(lease),
             holds: Mutex::default(),
@@ -39,6 +47,13 @@ impl Slot {
                 used: now,
             }),
         }
+    }
+
+    /// Whether a caller may use it.
+    pub fn belongs_to(&self, caller: Option<&Owner>) -> bool {
+        self.owner
+            .as_ref()
+            .is_none_or(|owner| Some(owner) == caller)
     }
 
     /// The answer to Initialize.
@@ -65,8 +80,12 @@ impl Slot {
     pub fn initialize_again(
         &self,
         request: &v1::InitializeRequest,
-    ) -> Result<v1::InitializeReply, Failure> {
-        self.call(|instance| {
+        caller: Option<&Owner>,
+    ) -> Result<v1::InitializeReply, CallError> {
+        if !self.belongs_to(caller) {
+            return Err(CallError::of_another(request.instance));
+        }
+        let reply = self.call(|instance| {
             if instance.is_new() && self.request == *request {
                 return Ok(self.told(instance));
             }
@@ -77,7 +96,8 @@ impl Slot {
                     request.instance
                 ),
             ))
-        })
+        })?;
+        Ok(reply)
     }
 
     fn told(&self, instance: &Instance) -> v1::InitializeReply {

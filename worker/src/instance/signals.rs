@@ -1,5 +1,7 @@
 //! The signals of a request as the inputs of a subsystem.
 
+use std::collections::{HashMap, HashSet};
+
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1::{self, Failure};
 
@@ -43,7 +45,9 @@ impl Signals {
     ) -> Result<Self, Failure> {
         let driven = &request.inputs;
         let places = find(known, driven, "inputs")?;
-        let undriven = |place: &usize| known[*place].default.is_none() && !places.contains(place);
+        let mut is_driven = vec![false; known.len()];
+        places.iter().for_each(|&place| is_driven[place] = true);
+        let undriven = |place: &usize| known[*place].default.is_none() && !is_driven[*place];
         if let Some(place) = (0..known.len()).find(undriven) {
             return Err(Failure::misuse(
                 "inputs",
@@ -191,9 +195,11 @@ pub(crate) fn find(
     names: &[String],
     field: &str,
 ) -> Result<Vec<usize>, Failure> {
+    // The first of a name counts.
+    let places = known.iter().enumerate().rev();
+    let places: HashMap<&str, usize> = places.map(|(i, own)| (own.name.as_str(), i)).collect();
     let place = |name: &String| {
-        let place = known.iter().position(|own| own.name == *name);
-        place.ok_or_else(|| {
+        places.get(name.as_str()).copied().ok_or_else(|| {
             let known = setup::names(known.iter().map(|own| &own.name));
             let message = format!("no variable \"{name}\" among the model's: {known}");
             Failure::misuse(field, message)
@@ -203,9 +209,10 @@ pub(crate) fn find(
 }
 
 fn refuse_twice(field: &str, names: &[String]) -> Result<(), Failure> {
-    let twice = (1..names.len()).find(|&i| names[..i].contains(&names[i]));
-    twice.map_or(Ok(()), |i| {
-        let message = format!("input \"{}\" is listed twice", names[i]);
+    let mut listed = HashSet::with_capacity(names.len());
+    let twice = names.iter().find(|name| !listed.insert(*name));
+    twice.map_or(Ok(()), |name| {
+        let message = format!("input \"{name}\" is listed twice");
         Err(Failure::misuse(field, message))
     })
 }

@@ -4,36 +4,46 @@ use std::io;
 use std::pin::Pin;
 use std::task::{Context, Poll};
 
-use linchpin_proto::contract::Hold;
+use linchpin_proto::contract::{Hold, Owner};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tonic::transport::server::Connected;
 
-/// A connection with the [`Hold`] that stands for it; calls find that among their extensions.
+/// A connection with the [`Caller`] at its other end; calls find that among their extensions.
 pub(super) struct Connection<C> {
     bytes: C,
-    hold: Hold,
+    caller: Caller,
+}
+
+/// Whose calls come over a connection.
+#[derive(Clone)]
+pub(super) struct Caller {
+    /// The connection, which holds instances.
+    pub hold: Hold,
+    /// Who calls, where certificates are shown.
+    pub owner: Option<Owner>,
 }
 
 impl<C> Connection<C> {
-    pub fn new(bytes: C) -> Self {
+    pub fn new(bytes: C, owner: Option<Owner>) -> Self {
+        let hold = Hold::connection();
         Self {
             bytes,
-            hold: Hold::connection(),
+            caller: Caller { hold, owner },
         }
     }
 }
 
 impl<C> Drop for Connection<C> {
     fn drop(&mut self) {
-        self.hold.end();
+        self.caller.hold.end();
     }
 }
 
 impl<C> Connected for Connection<C> {
-    type ConnectInfo = Hold;
+    type ConnectInfo = Caller;
 
-    fn connect_info(&self) -> Hold {
-        self.hold.clone()
+    fn connect_info(&self) -> Caller {
+        self.caller.clone()
     }
 }
 

@@ -3,13 +3,15 @@
 use std::pin::Pin;
 use std::sync::Arc;
 
-use linchpin_proto::contract::{CallError, Contract, Hold};
+use linchpin_proto::contract::{CallError, Contract, Hold, Owner};
 use linchpin_proto::label::Labelled;
 use linchpin_proto::status::to_status;
 use linchpin_proto::v1::{self, worker_server::Worker};
 use tokio::runtime::{Handle, RuntimeFlavor};
 use tokio_stream::{Stream, StreamExt};
 use tonic::{Request, Response, Status, Streaming};
+
+use super::connection::Caller;
 
 /// Answers gRPC calls from a contract.
 pub(super) struct Service {
@@ -21,19 +23,45 @@ impl Service {
         Self { contract }
     }
 
-    /// The connection of a call holds the instance that the call names.
+    /// The connection of a call holds the instance that the call names, if that is the caller's.
     fn answer<Q: Labelled, A>(
         &self,
         request: Request<Q>,
         call: impl FnOnce(&dyn Contract, &Q) -> Result<A, CallError>,
     ) -> Result<Response<A>, Status> {
-        let answer = compute(|| call(&*self.contract, request.get_ref()));
-        let connection = request.extensions().get::<Hold>();
-        if let (Some(instance), Some(connection)) = (request.get_ref().label().instance, connection)
-        {
-            self.contract.hold(instance, connection);
+        let instance = request.get_ref().label().instance;
+        if let Some(instance) = instance {
+            check_owner(&*self.contract, instance, owner(&request).as_ref())?;
         }
-        answer.map(Response::new).map_err(|error| to_status(&error))
+        let answer = compute(|| call(&*self.contract, request.get_ref()));
+        let answer = answer.map_err(|error| to_status(&error));
+        let caller = request.extensions().get::<Caller>();
+        if let (Some(instance), Some(caller)) = (instance, caller) {
+            // Another one may have made an instance of this number meanwhile.
+            check_owner(&*self.contract, instance, caller.owner.as_ref())?;
+            self.contract.hold(instance, &caller.hold);
+        }
+        answer.map(Response::new)
+    }
+}
+
+/// Who calls, where certificates are shown.
+fn owner<Q>(request: &Request<Q>) -> Option<Owner> {
+    let caller = request.extensions().get::<Caller>();
+    caller.and_then(|caller| caller.owner.clone())
+}
+
+/// Refuses calls for instances of others.
+fn check_owner(
+    contract: &dyn Contract,
+    instance: u64,
+    caller: Option<&Owner>,
+) -> Result<(), Status> {
+    match caller {
+        Some(caller) if !contract.may_use(instance, caller) => {
+            Err(to_status(&CallError::of_another(instance)))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -61,7 +89,12 @@ impl Worker for Service {
         &self,
         request: Request<v1::InitializeRequest>,
     ) -> Result<Response<v1::InitializeReply>, Status> {
-        self.answer(request, |contract, request| contract.initialize(request))
+        match owner(&request) {
+            Some(owner) => self.answer(request, |contract, request| {
+                contract.initialize_for(request, &owner)
+            }),
+            None => self.answer(request, |contract, request| contract.initialize(request)),
+        }
     }
 
     async fn snapshot(
@@ -126,8 +159,14 @@ impl Worker for Service {
         &self,
         request: Request<v1::ListInstancesRequest>,
     ) -> Result<Response<v1::ListInstancesReply>, Status> {
+        let owner = owner(&request);
         self.answer(request, |contract, request| {
-            contract.list_instances(request)
+            let mut reply = contract.list_instances(request)?;
+            if let Some(owner) = &owner {
+                let instances = &mut reply.instances;
+                instances.retain(|own| contract.may_use(own.instance, owner));
+            }
+            Ok(reply)
         })
     }
 
@@ -140,6 +179,7 @@ impl Worker for Service {
         let mut turns = Turns {
             contract: Arc::clone(&self.contract),
             stream: Hold::stream(),
+            owner: owner(&request),
             held: None,
         };
         // The inbound stream is mapped straight to the outbound one: a task between them would cost a wake-up.
@@ -154,12 +194,14 @@ impl Worker for Service {
 struct Turns {
     contract: Arc<dyn Contract>,
     stream: Hold,
+    owner: Option<Owner>,
     /// The instance that the stream holds since its last turn.
     held: Option<u64>,
 }
 
 impl Turns {
     fn turn(&mut self, request: &v1::ExchangeRequest) -> Result<v1::ExchangeReply, Status> {
+        check_owner(&*self.contract, request.instance, self.owner.as_ref())?;
         if self.held != Some(request.instance) {
             self.contract.hold(request.instance, &self.stream);
             self.held = Some(request.instance);

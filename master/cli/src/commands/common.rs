@@ -7,13 +7,15 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use linchpin_master::Interrupt;
-use linchpin_master::connection::{Grpc, TimeLimits, new_runtime};
+use linchpin_master::connection::{
+    Access, Grpc, StartError, TimeLimits, WorkerAddress, new_runtime,
+};
 use linchpin_master::scene::{self, Override, Scene, SceneErrors, warnings};
 
-use linchpin_proto::contract::CallError;
 use serde::Serialize;
 
 use super::CommandError;
+use crate::connect::access;
 use crate::output::OutputFolder;
 use crate::progress;
 
@@ -89,21 +91,46 @@ impl SceneArguments {
 /// A running worker that is asked outside of any run.
 #[derive(Debug, Clone, clap::Args)]
 pub struct WorkerArguments {
-    /// Address of the worker: http://HOST:PORT or unix:/PATH
+    /// Address of the worker: https://HOST:PORT, http://HOST:PORT or unix:/PATH
     #[arg(value_parser = address)]
     address: String,
+
+    #[command(flatten)]
+    access: AccessArguments,
 
     /// Longest time for an answer, in s
     #[arg(long, value_name = "S", default_value_t = 5.0, value_parser = seconds)]
     timeout: f64,
 }
 
+/// By what right workers on other machines are called.
+#[derive(Debug, Clone, clap::Args)]
+pub struct AccessArguments {
+    /// Folder with ca.crt, tls.crt and tls.key of this master, for https:// (linchpin certificates makes it)
+    #[arg(long, value_name = "FOLDER")]
+    certificates: Option<PathBuf>,
+
+    /// Permit http:// to other machines; nothing is encrypted, and nobody proves who they are
+    #[arg(long)]
+    plain_text: bool,
+}
+
+impl AccessArguments {
+    /// Reads the certificates.
+    ///
+    /// # Errors
+    /// [`StartError::Certificates`].
+    pub fn read(&self) -> Result<Access, StartError> {
+        access(self.certificates.as_deref(), self.plain_text)
+    }
+}
+
 /// Reads the address of a worker.
 pub fn address(text: &str) -> Result<String, String> {
-    if scene::is_worker_address(text) {
-        return Ok(text.to_owned());
+    match WorkerAddress::parse(text) {
+        Some(_) => Ok(text.to_owned()),
+        None => Err("it must be https://HOST:PORT, http://HOST:PORT or unix:/PATH".into()),
     }
-    Err("it must be http://HOST:PORT or unix:/PATH".into())
 }
 
 /// Reads a positive time in s.
@@ -125,9 +152,18 @@ impl WorkerArguments {
     /// # Errors
     /// [`CommandError::Start`] if nobody answers there; [`CommandError::System`].
     pub fn connect(&self) -> Result<Grpc, CommandError> {
-        let limits = self.limits();
-        Grpc::connect(&self.address, limits, new_runtime()?, Interrupt::default())
+        let (limits, access) = (self.limits(), self.access()?);
+        let (runtime, interrupt) = (new_runtime()?, Interrupt::default());
+        Grpc::connect(&self.address, limits, &access, runtime, interrupt)
             .map_err(|source| self.failed(source))
+    }
+
+    /// By what right it is called.
+    ///
+    /// # Errors
+    /// [`CommandError::Start`]: the certificates cannot be used.
+    pub fn access(&self) -> Result<Access, CommandError> {
+        self.access.read().map_err(|source| self.failed(source))
     }
 
     /// The time that it has.
@@ -140,7 +176,7 @@ impl WorkerArguments {
     }
 
     /// That a call to it failed.
-    pub fn failed(&self, source: CallError) -> CommandError {
+    pub fn failed(&self, source: impl Into<StartError>) -> CommandError {
         CommandError::Start {
             address: self.address.clone(),
             source: Box::new(source.into()),

@@ -8,7 +8,7 @@ use linchpin_proto::v1::{self, Value};
 
 use super::CommandError;
 use super::assignment::assignment;
-use super::common::{address, print, seconds};
+use super::common::{AccessArguments, address, print, seconds};
 use crate::conformance::checks::all;
 use crate::conformance::peer::{AtAddress, Peer, Started};
 use crate::conformance::report::Report;
@@ -31,9 +31,12 @@ docs/guide/conformance.md explains every check.
 
 Exit code 0: no check failed (warnings may have been printed); 1: at least one did, or the worker could not be examined.")]
 pub struct Arguments {
-    /// Address of the worker: http://HOST:PORT or unix:/PATH
+    /// Address of the worker: https://HOST:PORT, http://HOST:PORT or unix:/PATH
     #[arg(value_parser = address, required_unless_present = "command", conflicts_with = "command")]
     address: Option<String>,
+
+    #[command(flatten)]
+    access: AccessArguments,
 
     /// Command that starts the worker
     #[arg(last = true, value_name = "COMMAND")]
@@ -103,7 +106,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
 fn examine(arguments: &Arguments, settings: &Settings) -> Result<Report, ConformanceError> {
     let limit = Duration::from_secs_f64(arguments.timeout);
     match &arguments.address {
-        Some(address) => under_a_bar(&AtAddress::new(address.clone(), limit)?, settings),
+        Some(address) => {
+            let access = arguments.access.read()?;
+            under_a_bar(&AtAddress::new(address.clone(), access, limit)?, settings)
+        }
         None => under_a_bar(&Started::new(&arguments.command, limit)?, settings),
     }
 }

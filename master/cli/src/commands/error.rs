@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use linchpin_master::RunError;
 use linchpin_master::connection::{CONTRACT, StartError};
 use linchpin_master::scene::{Coupling, SceneErrors};
+use linchpin_proto::certificates::CertificatesError;
 use linchpin_proto::contract::CallError;
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
+use crate::certificates::NewCertificatesError;
 use crate::comparison::ComparisonError;
 use crate::conformance::ConformanceError;
 use crate::interrupt::{self, Request};
@@ -299,12 +301,24 @@ pub enum CommandError {
     /// A worker cannot listen.
     #[error(transparent)]
     Listen(#[from] ListenError),
+    /// Certificates cannot be used.
+    #[error(transparent)]
+    Certificates(#[from] Box<CertificatesError>),
+    /// Certificates cannot be made.
+    #[error(transparent)]
+    NewCertificates(#[from] NewCertificatesError),
     /// A worker stopped.
     #[error(transparent)]
     Serve(#[from] ServeError),
     /// The system gave no runtime.
     #[error("cannot start: {0}")]
     System(#[from] std::io::Error),
+}
+
+impl From<CertificatesError> for CommandError {
+    fn from(error: CertificatesError) -> Self {
+        Self::Certificates(Box::new(error))
+    }
 }
 
 impl CommandError {
@@ -337,6 +351,7 @@ impl CommandError {
             Self::NothingToStudy { .. }
             | Self::Resume(ResumeError::NoCheckpoint { .. } | ResumeError::OtherRun { .. })
             | Self::NothingToAnimate
+            | Self::NewCertificates(NewCertificatesError::NoWorker { .. })
             | Self::TooManyParts { .. }
             | Self::NoScene { .. }
             | Self::NoSettings { .. }

@@ -43,17 +43,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
             .map_err(failed)
     };
     let before = list()?.instances;
-    let is_there = |number: &u64| before.iter().any(|own| own.instance == *number);
-    if let Some(number) = arguments.end.iter().find(|number| !is_there(number)) {
-        return Err(CommandError::NoInstance {
-            address: arguments.worker.address().to_owned(),
-            number: *number,
-        });
-    }
     for &instance in &arguments.end {
+        // Also one that is not listed: whose it is, if it is somebody else's, says the worker.
         worker
             .terminate(&TerminateRequest { instance })
             .map_err(failed)?;
+        if !before.iter().any(|own| own.instance == instance) {
+            return Err(CommandError::NoInstance {
+                address: arguments.worker.address().to_owned(),
+                number: instance,
+            });
+        }
     }
     print(text(&list()?.instances))
 }

@@ -1,6 +1,7 @@
 //! The sub-commands, one file each: its arguments and what it does.
 
 pub mod assignment;
+pub mod certificates;
 pub mod check;
 pub mod common;
 pub mod completions;

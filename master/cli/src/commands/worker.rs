@@ -1,10 +1,12 @@
 //! `linchpin worker`: serves the built-in models.
 
 use std::io::{Read, Write};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
 use linchpin_models::models;
+use linchpin_proto::certificates::Certificates;
 use linchpin_worker::host::{Host, Limits};
 use linchpin_worker::server::{Address, Reach, Server};
 use tokio::sync::oneshot;
@@ -17,15 +19,19 @@ use crate::interrupt::Signals;
 #[command(after_help = "Examples:
   linchpin worker --listen 127.0.0.1:50051
   linchpin worker --listen unix:/run/linchpin/mass1.sock
-  linchpin worker --listen 0.0.0.0:50051 --allow-remote     in a container")]
+  linchpin worker --listen 0.0.0.0:50051 --certificates certificates/workers/mass1")]
 pub struct Arguments {
     /// Where to listen: IP:PORT (port 0: the system chooses) or unix:/PATH
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:0")]
     listen: Address,
 
-    /// Permit an address that other machines can reach; nothing is encrypted
+    /// Folder with ca.crt, tls.crt and tls.key (linchpin certificates makes it): only masters with a certificate are served, by TLS
+    #[arg(long, value_name = "FOLDER", conflicts_with = "plain_text")]
+    certificates: Option<PathBuf>,
+
+    /// Permit an address that other machines can reach without certificates; nothing is encrypted, and anyone is served
     #[arg(long)]
-    allow_remote: bool,
+    plain_text: bool,
 
     /// Threads; with more than one, health is answered during long steps, and instances compute at the same time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -73,15 +79,15 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         ..Limits::default()
     };
     let host = Arc::new(Host::with_limits(models(), limits));
-    let reach = if arguments.allow_remote {
-        Reach::Anyone
-    } else {
-        Reach::Local
+    let reach = match &arguments.certificates {
+        Some(folder) => Reach::Masters(Certificates::read(folder)?.for_worker()?),
+        None if arguments.plain_text => Reach::Anyone,
+        None => Reach::Local,
     };
     let server = Server::bind(host, arguments.listen.clone(), reach).await?;
     let mut signals = Signals::watch()?;
     let input_closed = arguments.exit_with_stdin.then(watch_input);
-    announce(server.address());
+    announce(&server.url());
     let shutdown = async move {
         tokio::select! {
             _ = signals.next() => {}
@@ -92,7 +98,7 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
 }
 
 /// Whoever started the worker may have closed its output; that is no reason to stop.
-fn announce(address: &Address) {
+fn announce(address: &str) {
     let mut output = std::io::stdout();
     let _ = writeln!(output, "listening on {address}").and_then(|()| output.flush());
 }

@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
-    Connection, Direct, ExchangeStream, ExitMessage, Grpc, Launcher, StartError, TimeLimits,
-    WorkerProcess, new_runtime,
+    Access, Connection, Direct, ExchangeStream, ExitMessage, Grpc, Launcher, StartError,
+    TimeLimits, WorkerProcess, new_runtime,
 };
 use linchpin_proto::contract::{CallError, Contract};
 use tokio::runtime::Runtime;
@@ -38,28 +38,36 @@ impl Peer for InProcess {
 pub struct AtAddress {
     address: String,
     limits: TimeLimits,
+    access: Access,
     runtime: Arc<Runtime>,
 }
 
 impl AtAddress {
-    /// The worker at `http://HOST:PORT` or `unix:/PATH`; nothing is sent yet. Every call may take `limit`.
+    /// The worker at an address; nothing is sent yet. Every call may take `limit`.
     ///
     /// # Errors
     /// [`StartError::Runtime`].
-    pub fn new(address: String, limit: Duration) -> Result<Self, StartError> {
+    pub fn new(address: String, access: Access, limit: Duration) -> Result<Self, StartError> {
         Ok(Self {
             address,
             limits: TimeLimits {
                 start: limit,
                 answer: limit,
             },
+            access,
             runtime: new_runtime()?,
         })
     }
 
     fn reach(&self, limits: TimeLimits) -> Result<Grpc, CallError> {
         let runtime = Arc::clone(&self.runtime);
-        Grpc::connect(&self.address, limits, runtime, Interrupt::default())
+        Grpc::connect(
+            &self.address,
+            limits,
+            &self.access,
+            runtime,
+            Interrupt::default(),
+        )
     }
 }
 
@@ -92,7 +100,7 @@ impl Started {
     pub fn new(command: &[String], limit: Duration) -> Result<Self, StartError> {
         let launcher = Launcher::new()?;
         let process = launcher.start(NAME, command)?;
-        let at = AtAddress::new(process.address().to_owned(), limit)?;
+        let at = AtAddress::new(process.address().to_owned(), Access::default(), limit)?;
         let attempt = TimeLimits {
             start: ATTEMPT,
             ..at.limits

@@ -78,7 +78,16 @@ fn a_subsystem_is_served_in_exactly_one_way() {
     assert_mistake(
         &[(MODEL, "address = \"https://h:1\" ")],
         "https",
-        &["TLS is not supported yet", "https://h:1"],
+        &[
+            "names no certificates",
+            "https://h:1",
+            "linchpin certificates",
+        ],
+    );
+    assert_mistake(
+        &[(MODEL, "address = \"http://h:1\" ")],
+        "http",
+        &["in plain text", "http://h:1", "security.plain_text = true"],
     );
     for address in [
         "tcp://h:1",

@@ -53,11 +53,15 @@ class Address:
         """As gRPC takes it."""
         return f"{self.host}:{self.port}" if self.host else f"unix:{self.path}"
 
-    def check(self, allow_remote: bool) -> None:
+    def check(self, plain_text: bool, is_tls: bool = False) -> None:
         """Refuses an address that this worker must not or cannot listen on, and clears the socket of one that is gone."""
-        if not (self.is_local or allow_remote):
-            reach = f"{self} can be reached from other machines, and this worker has neither encryption nor a password"
-            raise ListenError(f"{reach}; listen on 127.0.0.1, or permit it with --allow-remote")
+        if not (self.is_local or plain_text or is_tls):
+            reach = f"{self} can be reached from other machines, which plain text is not for"
+            ways = "give --certificates FOLDER (linchpin certificates makes it), listen on 127.0.0.1, or permit it with --plain-text"
+            raise ListenError(f"{reach}: {ways} where the network keeps strangers away")
+        if is_tls and not self.host:
+            reason = "who may connect is decided by the permissions of the socket and its folder"
+            raise ListenError(f"{self} takes no certificates: {reason}; leave --certificates away, or listen on IP:PORT")
         if self.host:
             _check_port(self)
         else:

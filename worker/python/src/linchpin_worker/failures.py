@@ -42,6 +42,14 @@ class NoInstance(CallFailed):
         super().__init__(pb.Failure(severity=pb.SEVERITY_MISUSE, message=text, field="instance"))
 
 
+class Denied(CallFailed):
+    """The instance is not the caller's."""
+
+    def __init__(self, instance: int) -> None:
+        text = f"instance {instance:#x} belongs to another certificate: only the master that made it may use or end it"
+        super().__init__(pb.Failure(severity=pb.SEVERITY_FATAL, message=text))
+
+
 def misuse(field: str, message: str) -> CallFailed:
     """The request was wrong: `field` is what must change."""
     return CallFailed(pb.Failure(severity=pb.SEVERITY_MISUSE, message=message, field=field))

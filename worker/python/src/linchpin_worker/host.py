@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from ._contract import worker_pb2 as pb
 from .description import Description, DescriptionError
-from .failures import CallFailed, NoInstance, Refused, fatal, misuse
+from .failures import CallFailed, Denied, NoInstance, Refused, fatal, misuse
 from .hold import Hold
 from .instance import Instance
 from .joint_load_request import joint_loads_of
@@ -71,11 +71,12 @@ class Host:
         models = [description.message() for description in descriptions]
         return pb.DescribeReply(protocol=PROTOCOL, worker=PROGRAM, worker_version=own_version(), models=models)
 
-    def initialize(self, request: pb.InitializeRequest) -> pb.InitializeReply:
-        """Makes an instance."""
+    def initialize(self, request: pb.InitializeRequest, owner: bytes | None = None) -> pb.InitializeReply:
+        """Makes an instance, which belongs to a certificate if one was shown."""
         slot = self._slots.get(request.instance)
         if slot is None:
-            slot = self._place(request, self._build(request))
+            slot = self._place(request, self._build(request), owner)
+        self.check_owner(request.instance, owner)
         reply = slot.initialized(request)
         reply.instance, reply.sequence = request.instance, request.sequence
         return reply
@@ -122,12 +123,18 @@ class Host:
             self._slots.pop(request.instance, None)
         return pb.TerminateReply(instance=request.instance)
 
-    def list_instances(self, request: pb.ListInstancesRequest) -> pb.ListInstancesReply:
-        """The instances that live here."""
+    def list_instances(self, request: pb.ListInstancesRequest, owner: bytes | None = None) -> pb.ListInstancesReply:
+        """The instances that live here and are the caller's."""
         self.tidy()
         with self._lock:
-            slots = list(self._slots.values())
+            slots = [slot for slot in self._slots.values() if slot.belongs_to(owner)]
         return pb.ListInstancesReply(instances=[slot.state() for slot in slots])
+
+    def check_owner(self, instance: int, caller: bytes | None) -> None:
+        """Refuses an instance of another certificate."""
+        slot = self._slots.get(instance)
+        if slot is not None and not slot.belongs_to(caller):
+            raise Denied(instance)
 
     def hold(self, instance: int, by: Hold) -> None:
         """Says what holds an instance from now on."""
@@ -170,7 +177,7 @@ class Host:
         subsystem = built(lambda: model(setup_of(description, request)))
         return Instance(subsystem, signals, description, request, self._limits.snapshots)
 
-    def _place(self, request: pb.InitializeRequest, instance: Instance) -> Slot:
+    def _place(self, request: pb.InitializeRequest, instance: Instance, owner: bytes | None) -> Slot:
         self.tidy()
         limits = self._limits
         with self._lock:
@@ -182,7 +189,7 @@ class Host:
             if len(self._slots) >= limits.instances:
                 full = f"this worker is full: {len(self._slots)} instances are in use"
                 raise fatal(f"{full}; end some with Terminate or start another worker")
-            slot = self._slots[request.instance] = Slot(request, instance, limits.lease)
+            slot = self._slots[request.instance] = Slot(request, instance, limits.lease, owner)
             return slot
 
 

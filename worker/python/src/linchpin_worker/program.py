@@ -20,7 +20,7 @@ from .subsystem import Subsystem
 EPILOG = """examples:
   python worker.py --listen 127.0.0.1:50051
   python worker.py --listen unix:/run/linchpin/mass1.sock
-  python worker.py --listen 0.0.0.0:50051 --allow-remote     in a container
+  python worker.py --listen 0.0.0.0:50051 --certificates certificates/workers/mass1
 
 In a scene: command = ["python", "worker.py"]; the run appends --listen with an address of its own."""
 
@@ -41,13 +41,13 @@ def serve(*models: type[Subsystem], arguments: Sequence[str] | None = None) -> N
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: ends.put(None))
     try:
-        server = Server(host, given.listen, given.allow_remote)
+        server = Server(host, given.listen, plain_text=given.plain_text, certificates=given.certificates)
     except ListenError as error:
         sys.exit(f"error: {error}")
     with server:
         if given.exit_with_stdin or (server.address.path and input_is_pipe()):
             threading.Thread(target=watch_input, args=(lambda: ends.put(None),), daemon=True).start()
-        announce(server.address)
+        announce(server.url)
         ends.get()
     if any(thread.name.startswith("linchpin-worker_") for thread in threading.enumerate()):
         # A solver that is still computing would keep the interpreter from ending.
@@ -61,8 +61,11 @@ def parser(limits: Limits) -> argparse.ArgumentParser:
     add = own.add_argument
     where = "where to listen: IP:PORT (port 0: the system chooses) or unix:/PATH (default 127.0.0.1:0)"
     add("--listen", metavar="ADDRESS", type=readable(Address.of), default="127.0.0.1:0", help=where)
-    reach = "permit an address that other machines can reach; nothing is encrypted"
-    add("--allow-remote", action="store_true", help=reach)
+    folder = "folder with ca.crt, tls.crt and tls.key: only masters with a certificate are served, by TLS"
+    reach = "permit an address that other machines can reach without certificates; nothing is encrypted, and anyone is served"
+    either = own.add_mutually_exclusive_group()
+    either.add_argument("--certificates", metavar="FOLDER", help=folder)
+    either.add_argument("--plain-text", action="store_true", help=reach)
     most = f"most instances at a time (default {limits.instances})"
     add("--max-instances", metavar="N", type=readable(positive), default=limits.instances, help=most)
     lease = f"time in s that an instance waits for another call when what held it has ended (default {limits.lease:g})"
@@ -110,7 +113,7 @@ def watch_input(closed: Callable[[], None]) -> None:
     closed()
 
 
-def announce(address: Address) -> None:
+def announce(address: str) -> None:
     """Says where the worker listens. Whoever started it may have closed its output; that is no reason to stop."""
     try:
         print(f"listening on {address}", flush=True)

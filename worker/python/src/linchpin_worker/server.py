@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import pathlib
 import threading
 from collections.abc import Callable, Iterator
@@ -15,7 +16,8 @@ import grpc
 from ._contract import wire_pb2
 from ._contract import worker_pb2 as pb
 from .address import Address, ListenError
-from .failures import CallFailed, NoInstance
+from .certificates import credentials, owner_of
+from .failures import CallFailed, Denied, NoInstance
 from .hold import Hold, connection
 from .host import Host
 from .status import abort
@@ -34,7 +36,7 @@ OTHER_CALLS = 8
 
 WORKER = pb.DESCRIPTOR.services_by_name["Worker"]
 
-UNARY: dict[str, Callable[[Host, Any], Any]] = {
+UNARY: dict[str, Callable[..., Any]] = {
     "Describe": Host.describe,
     "Initialize": Host.initialize,
     "Snapshot": Host.snapshot,
@@ -52,9 +54,10 @@ UNARY: dict[str, Callable[[Host, Any], Any]] = {
 class Server:
     """A worker that listens. It serves from the start of a `with` statement to its end."""
 
-    def __init__(self, host: Host, address: Address, allow_remote: bool = False) -> None:
-        """Begins to listen; `ListenError` if that cannot be."""
-        address.check(allow_remote)
+    def __init__(self, host: Host, address: Address, plain_text: bool = False, certificates: str | None = None) -> None:
+        """Begins to listen; `ListenError` if that cannot be. With a folder of certificates only masters that have one are served."""
+        address.check(plain_text, certificates is not None)
+        secure = credentials(certificates) if certificates is not None else None
         self._host = host
         # A stream keeps its thread until it ends; threads are made as they are needed.
         self._threads = ThreadPoolExecutor(host.limits.instances + OTHER_CALLS, thread_name_prefix="linchpin-worker")
@@ -66,11 +69,18 @@ class Server:
         ]
         self._server = grpc.server(self._threads, options=options)
         self._server.add_generic_rpc_handlers((self._worker(), health()))
+        # The socket is for the own user alone, whatever the umask was.
+        before = os.umask(0o177)
         try:
-            port = self._server.add_insecure_port(address.target())
+            target = address.target()
+            port = self._server.add_secure_port(target, secure) if secure else self._server.add_insecure_port(target)
         except RuntimeError as error:
             raise ListenError(f"cannot listen on {address}: {error}") from error
+        finally:
+            os.umask(before)
         self.address = Address(address.host, port, "") if address.host else address
+        self.url = str(self.address).replace("http:", "https:") if secure else str(self.address)
+        """Its address as a master writes it in a scene."""
         self._stopped = threading.Event()
 
     def __enter__(self) -> Server:
@@ -104,28 +114,38 @@ class Server:
             handlers[method.name] = make(answer, request.FromString, serialized)
         return grpc.method_handlers_generic_handler(WORKER.full_name, handlers)
 
-    def _answer(self, call: Callable[[Host, Any], Any], request: Any, context: grpc.ServicerContext) -> Any:
-        """Answers a unary call; its connection holds the instance that it names."""
+    def _answer(self, call: Callable[..., Any], request: Any, context: grpc.ServicerContext) -> Any:
+        """Answers a unary call; its connection holds the instance that it names, if that is the caller's."""
+        owner = owner_of(context)
+        names_instance = "instance" in request.DESCRIPTOR.fields_by_name
         try:
+            if names_instance:
+                self._host.check_owner(request.instance, owner)
+            if call in (Host.initialize, Host.list_instances):
+                return call(self._host, request, owner)
             return call(self._host, request)
+        except Denied as failed:
+            names_instance = False
+            return abort(context, failed)
         except CallFailed as failed:
             return abort(context, failed)
         finally:
-            if "instance" in request.DESCRIPTOR.fields_by_name:
+            if names_instance:
                 self._host.hold(request.instance, connection(context.peer(), self.address.path))
 
     def _exchange(self, requests: Iterator[pb.ExchangeRequest], context: grpc.ServicerContext) -> Iterator[pb.ExchangeReply]:
         """The turns of a stream, which holds its instance from the first turn on, and ends where it is not there."""
-        stream, held = Hold(is_stream=True), None
+        stream, held, owner = Hold(is_stream=True), None, owner_of(context)
         if not context.add_callback(stream.end):
             return
         for request in requests:
-            if held != request.instance:
-                self._host.hold(request.instance, stream)
-                held = request.instance
             try:
+                self._host.check_owner(request.instance, owner)
+                if held != request.instance:
+                    self._host.hold(request.instance, stream)
+                    held = request.instance
                 yield self._host.exchange(request)
-            except NoInstance as failed:
+            except (NoInstance, Denied) as failed:
                 abort(context, failed)
             except CallFailed as failed:
                 yield pb.ExchangeReply(sequence=request.sequence, instance=held, failure=failed.failure)

@@ -21,14 +21,19 @@ Answer = TypeVar("Answer")
 class Slot:
     """An instance with what decides about its end. Masters that know nothing of leases have none."""
 
-    def __init__(self, request: pb.InitializeRequest, instance: Instance, lease: float) -> None:
+    def __init__(self, request: pb.InitializeRequest, instance: Instance, lease: float, owner: bytes | None = None) -> None:
         self._request = request
+        self._owner = owner
         self._instance = instance
         self._began = self._used = monotonic()
         self._lease = lease if request.protocol.minor >= LEASES else None
         self._calling = threading.Lock()
         self._holding = threading.Lock()
         self._holds: list[Hold] = []
+
+    def belongs_to(self, caller: bytes | None) -> bool:
+        """Whether a caller may use it: the certificate that made it, or anyone where none was shown."""
+        return self._owner is None or self._owner == caller
 
     def call(self, call: Callable[[Instance], Answer]) -> Answer:
         """Calls the instance, one call at a time."""

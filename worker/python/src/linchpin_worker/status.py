@@ -4,7 +4,7 @@ import grpc
 
 from ._contract import wire_pb2
 from ._contract import worker_pb2 as pb
-from .failures import CallFailed, NoInstance
+from .failures import CallFailed, Denied, NoInstance
 
 DOMAIN = "linchpin"
 
@@ -13,6 +13,8 @@ CODES = {
     pb.SEVERITY_RECOVERABLE: grpc.StatusCode.ABORTED,
     pb.SEVERITY_FATAL: grpc.StatusCode.INTERNAL,
 }
+
+OTHER_CODES = {NoInstance: grpc.StatusCode.NOT_FOUND, Denied: grpc.StatusCode.PERMISSION_DENIED}
 
 # Longest message and longest other text of a status, in bytes. A status travels in HTTP headers, and peers drop those
 # beyond some 16 kB; the message is in there twice, once with up to three bytes for one.
@@ -23,7 +25,7 @@ LONGEST_TEXT = 256
 def abort(context: grpc.ServicerContext, failed: CallFailed) -> None:
     """Ends a call with the status of its failure."""
     failure = failed.failure
-    code = grpc.StatusCode.NOT_FOUND if isinstance(failed, NoInstance) else CODES[failure.severity]
+    code = OTHER_CODES.get(type(failed), CODES[failure.severity])
     message = shortened(failure.message, LONGEST_MESSAGE)
     details = wire_pb2.Status(code=code.value[0], message=message, details=[error_info(failure)])
     context.set_trailing_metadata([("grpc-status-details-bin", details.SerializeToString())])
