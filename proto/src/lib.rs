@@ -11,6 +11,7 @@
 //! * [`polynomial`]: the Lagrange polynomial that a [`v1::Signal`] stands for;
 //! * [`readable`]: numbers in messages;
 //! * [`status`]: failures as gRPC statuses;
+//! * [`token`]: a secret between processes of one machine;
 //! * [`version`]: which protocol versions understand each other.
 
 #![cfg_attr(test, allow(clippy::unwrap_used))]
@@ -25,6 +26,7 @@ pub mod label;
 pub mod polynomial;
 pub mod readable;
 pub mod status;
+pub mod token;
 pub mod version;
 pub mod weights;
 

@@ -13,11 +13,13 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use linchpin_proto::contract::Contract;
+use linchpin_proto::token::{Demanding, Token};
 use linchpin_proto::v1::{FILE_DESCRIPTOR_SET, worker_server::WorkerServer};
 use rustls::ServerConfig;
 use tokio::net::{TcpListener, UnixListener, UnixSocket};
 use tokio_stream::StreamExt;
 use tokio_stream::wrappers::UnixListenerStream;
+use tonic::service::interceptor::InterceptedService;
 use tonic::transport::server::{Router, TcpIncoming};
 
 pub use address::{Address, AddressError};
@@ -131,6 +133,7 @@ pub struct Server {
     listener: Listener,
     address: Address,
     reach: Reach,
+    token: Demanding,
 }
 
 enum Listener {
@@ -179,7 +182,17 @@ impl Server {
             listener,
             address: bound,
             reach,
+            token: Demanding::default(),
         })
+    }
+
+    /// Serves only masters that show this token. Health and reflection are open.
+    #[must_use]
+    pub fn demanding(self, token: Token) -> Self {
+        Self {
+            token: Demanding(Some(token)),
+            ..self
+        }
     }
 
     /// Where it listens, with the port that the system chose.
@@ -199,14 +212,13 @@ impl Server {
     pub async fn serve(self, shutdown: impl Future<Output = ()>) -> Result<(), ServeError> {
         let (health, health_service) = tonic_health::server::health_reporter();
         health.set_serving::<WorkerServer<Service>>().await;
+        let worker = WorkerServer::new(Service::new(Arc::clone(&self.contract)))
+            .max_decoding_message_size(MESSAGE_LIMIT)
+            .max_encoding_message_size(MESSAGE_LIMIT);
         let router = tonic::transport::Server::builder()
             .add_service(health_service)
             .add_optional_service(reflection())
-            .add_service(
-                WorkerServer::new(Service::new(Arc::clone(&self.contract)))
-                    .max_decoding_message_size(MESSAGE_LIMIT)
-                    .max_encoding_message_size(MESSAGE_LIMIT),
-            );
+            .add_service(InterceptedService::new(worker, self.token));
         let (stop, stopped) = tokio::sync::oneshot::channel();
         let address = &self.address;
         let shutdown = async move {

@@ -14,6 +14,7 @@ use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::ground::GROUND;
 use linchpin_models::models;
 use linchpin_proto::certificates::Certificates;
+use linchpin_proto::token::Token;
 use linchpin_worker::Host;
 use tokio::runtime::Runtime;
 
@@ -165,13 +166,18 @@ impl Connector {
 
     /// The certificates are read once, if any worker takes them.
     fn access(&self, scene: &Scene) -> Result<Access, StartError> {
-        let is_tls = |own: &Subsystem| match &own.served {
-            Served::Address(address) => address.starts_with("https:"),
+        let is_at = |own: &Subsystem, scheme: &str| match &own.served {
+            Served::Address(address) => address.starts_with(scheme),
             _ => false,
         };
-        let folder = scene.security.certificates.as_deref();
-        let folder = folder.filter(|_| scene.subsystems.iter().any(is_tls));
-        made(&self.access, || access(folder, scene.security.plain_text)).cloned()
+        let any_at = |scheme| scene.subsystems.iter().any(|own| is_at(own, scheme));
+        let security = &scene.security;
+        let folder = security
+            .certificates
+            .as_deref()
+            .filter(|_| any_at("https:"));
+        let token = security.token.as_deref().filter(|_| any_at("http"));
+        made(&self.access, || access(folder, token, security.plain_text)).cloned()
     }
 
     fn launcher(&self) -> Result<&Arc<Launcher>, StartError> {
@@ -179,16 +185,24 @@ impl Connector {
     }
 }
 
-/// By what right workers are called: with the certificates of a folder, if there is one.
+/// By what right workers are called: with the certificates of a folder and the token of a file, if there are such.
 ///
 /// # Errors
-/// [`StartError::Certificates`].
-pub fn access(certificates: Option<&Path>, plain_text: bool) -> Result<Access, StartError> {
+/// [`StartError::Certificates`], [`StartError::Token`].
+pub fn access(
+    certificates: Option<&Path>,
+    token: Option<&Path>,
+    plain_text: bool,
+) -> Result<Access, StartError> {
     let tls = match certificates {
         Some(folder) => Some(Certificates::read(folder)?.for_master()?),
         None => None,
     };
-    Ok(Access { tls, plain_text })
+    Ok(Access {
+        tls,
+        plain_text,
+        token: token.map(Token::read).transpose()?,
+    })
 }
 
 /// Whether it needs no process: nothing is computed.

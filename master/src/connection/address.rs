@@ -3,6 +3,7 @@
 use std::net::IpAddr;
 use std::sync::Arc;
 
+use linchpin_proto::token::Token;
 use rustls::ClientConfig;
 use tonic::transport::Uri;
 
@@ -28,7 +29,7 @@ pub struct Host {
 
 impl Host {
     /// Whether it is this machine for sure.
-    fn is_loopback(&self) -> bool {
+    pub(super) fn is_loopback(&self) -> bool {
         let number = self.name.parse::<IpAddr>();
         number.map_or(self.name == "localhost", |number| number.is_loopback())
     }
@@ -66,6 +67,8 @@ pub struct Access {
     pub tls: Option<Arc<ClientConfig>>,
     /// Whether workers of other machines may be called in plain text.
     pub plain_text: bool,
+    /// What is shown to workers, but not in plain text over a network.
+    pub token: Option<Token>,
 }
 
 /// Why a worker is not called.

@@ -6,11 +6,13 @@ use std::time::{Duration, Instant};
 
 use hyper_util::rt::TokioIo;
 use linchpin_proto::contract::CallError;
+use linchpin_proto::token::{Showing, Token};
 use rustls::ClientConfig;
 use rustls::pki_types::ServerName;
 use tokio::net::TcpStream;
 use tokio::runtime::Runtime;
 use tokio_rustls::TlsConnector;
+use tonic::service::interceptor::InterceptedService;
 use tonic::transport::{Channel, Endpoint, Error, Uri};
 use tower::service_fn;
 
@@ -24,9 +26,12 @@ use crate::interrupt::Interrupt;
 const FIRST_PAUSE: Duration = Duration::from_millis(2);
 const LONGEST_PAUSE: Duration = Duration::from_millis(100);
 
+/// A channel whose calls show a token, if there is one.
+pub(super) type Authorized = InterceptedService<Channel, Showing>;
+
 /// An open channel to a worker.
 pub(super) struct Opened {
-    pub channel: Channel,
+    pub channel: Authorized,
     /// What was seen on the way. That a worker refuses the certificate of its master shows only at the first call.
     pub witness: Witness,
 }
@@ -51,7 +56,10 @@ pub(super) fn open(
     let reached = runtime.block_on(unless(interrupt, reach(&way, &endpoint, limits.start)))?;
     let witness = way.witness();
     match reached {
-        Ok(channel) => Ok(Opened { channel, witness }),
+        Ok(channel) => Ok(Opened {
+            channel: InterceptedService::new(channel, Showing(way.token(access))),
+            witness,
+        }),
         Err(error) => Err(witness.explain(address, unreachable(innermost(&error)))),
     }
 }
@@ -87,6 +95,14 @@ impl Way {
             }
             (WorkerAddress::Unix, _) => Self::Socket,
         })
+    }
+
+    /// It is not shown where others may listen.
+    fn token(&self, access: &Access) -> Option<Token> {
+        match self {
+            Self::Plain(host, _) if !host.is_loopback() => None,
+            _ => access.token.clone(),
+        }
     }
 
     fn witness(&self) -> Witness {

@@ -10,11 +10,10 @@ use linchpin_proto::status::to_error;
 use linchpin_proto::v1::worker_client::WorkerClient;
 use linchpin_proto::v1::*;
 use tokio::runtime::Runtime;
-use tonic::transport::Channel;
 use tonic::{Response, Status};
 
 use super::address::Access;
-use super::channel::{Opened, open};
+use super::channel::{Authorized, Opened, open};
 use super::time_limits::TimeLimits;
 use super::waiting::{unless, within};
 use super::witness::Witness;
@@ -28,7 +27,7 @@ const TERMINATE_TIMEOUT: Duration = Duration::from_secs(1);
 
 /// A worker behind gRPC.
 pub struct Grpc {
-    pub(super) client: WorkerClient<Channel>,
+    pub(super) client: WorkerClient<Authorized>,
     pub(super) runtime: Arc<Runtime>,
     pub(super) limits: TimeLimits,
     pub(super) interrupt: Interrupt,
@@ -76,7 +75,7 @@ impl Grpc {
         &self,
         name: &'static str,
         request: &Q,
-        call: impl FnOnce(WorkerClient<Channel>, Q) -> F,
+        call: impl FnOnce(WorkerClient<Authorized>, Q) -> F,
     ) -> Result<A, CallError>
     where
         F: Future<Output = Result<Response<A>, Status>>,

@@ -1,7 +1,8 @@
 //! Starting worker processes, and making sure that none outlives its master.
 
 use std::cell::RefCell;
-use std::fs::File;
+use std::fs::{File, Permissions};
+use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::CommandExt;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -76,6 +77,8 @@ impl Launcher {
     pub fn new() -> Result<Self, LaunchError> {
         let folder = tempfile::Builder::new()
             .prefix("linchpin-")
+            // Otherwise it would depend on the umask who can reach the workers.
+            .permissions(Permissions::from_mode(0o700))
             .tempdir()
             .map_err(|source| LaunchError::Folder { source })?;
         Ok(Self { folder })

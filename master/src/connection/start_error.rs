@@ -2,6 +2,7 @@
 
 use linchpin_proto::certificates::CertificatesError;
 use linchpin_proto::contract::CallError;
+use linchpin_proto::token::TokenError;
 
 use super::exit_message::ExitMessage;
 use super::launch::LaunchError;
@@ -32,6 +33,9 @@ pub enum StartError {
     /// The certificates of the master cannot be used.
     #[error(transparent)]
     Certificates(#[from] CertificatesError),
+    /// The token of the master cannot be used.
+    #[error(transparent)]
+    Token(#[from] TokenError),
     /// It does not answer.
     #[error("{0}{advice}", advice = advice(.0))]
     Call(#[from] CallError),

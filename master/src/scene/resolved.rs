@@ -178,6 +178,8 @@ pub struct Security {
     pub certificates: Option<PathBuf>,
     /// Whether plain text may leave this machine; default false.
     pub plain_text: bool,
+    /// File with the token that is shown to workers; absent: none.
+    pub token: Option<PathBuf>,
 }
 
 /// A variant of the scene; one command runs all of them side by side.

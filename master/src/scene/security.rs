@@ -6,7 +6,7 @@ use super::resolved::Security;
 use crate::reading::key::{Key, Takes};
 use crate::reading::reader::{Field, Problems, given};
 
-pub(super) const KEYS: [Key; 2] = [
+pub(super) const KEYS: [Key; 3] = [
     Key::new("certificates", Takes::Text)
         .default("none")
         .means(
@@ -16,20 +16,29 @@ pub(super) const KEYS: [Key; 2] = [
     Key::new("plain_text", Takes::Flag).default("`false`").means(
         "whether workers on other machines may be reached by `http://`, where nothing is encrypted and nobody proves who they are",
     ),
+    Key::new("token", Takes::Text).default("none").means(
+        "file with a secret that is shown to workers at `http://127.0.0.1` or `https://`, for those that were started with \
+         `--token`; nobody but its user may read it",
+    ),
 ];
 
 pub(super) fn read(field: Option<Field<'_>>, problems: &mut Problems<'_>) -> Option<Security> {
-    let [certificates, plain_text] = match field {
+    let [certificates, plain_text, token] = match field {
         Some(field) => field.section(problems)?.read(&KEYS, problems),
-        None => [const { None }; 2],
+        None => [const { None }; 3],
     };
-    let certificates = given(certificates, |field| match field.text(problems)? {
-        "" => field.refuse("the path of a folder", problems),
-        folder => Some(PathBuf::from(folder)),
-    });
+    let mut path = |field, what| {
+        given(field, |field: &Field<'_>| match field.text(problems)? {
+            "" => field.refuse(what, problems),
+            path => Some(PathBuf::from(path)),
+        })
+    };
+    let certificates = path(certificates, "the path of a folder");
+    let token = path(token, "the path of a file");
     let plain_text = given(plain_text, |field| field.flag(problems));
     Some(Security {
         certificates: certificates?,
         plain_text: plain_text?.unwrap_or_default(),
+        token: token?,
     })
 }

@@ -53,7 +53,7 @@ impl House {
             start: Duration::from_secs(5),
             answer: Duration::from_secs(10),
         };
-        let access = access(Some(&self.folder(master)), false).unwrap();
+        let access = access(Some(&self.folder(master)), None, false).unwrap();
         let (runtime, interrupt) = (new_runtime().unwrap(), Interrupt::default());
         Grpc::connect(&self.worker.address, limits, &access, runtime, interrupt).unwrap()
     }
@@ -108,7 +108,6 @@ fn is_called_by_its_owner_alone(start: Start) {
     assert_denied(other.initialize(&initialize(2.0)));
     assert_denied(other.export_state(&v1::ExportStateRequest {
         instance,
-        ..Default::default()
     }));
     assert_denied(other.import_state(&v1::ImportStateRequest {
         instance,
@@ -117,6 +116,7 @@ fn is_called_by_its_owner_alone(start: Start) {
     assert_denied(other.snapshot(&v1::SnapshotRequest {
         instance,
         sequence: 1,
+        ..Default::default()
     }));
     assert_denied(other.restore(&v1::RestoreRequest {
         instance,

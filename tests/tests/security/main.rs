@@ -9,6 +9,8 @@ mod masters;
 mod plain_text;
 mod runs;
 mod strangers;
+mod texts;
+mod token;
 
 use std::net::TcpListener;
 use std::path::Path;
@@ -29,37 +31,36 @@ pub struct Worker {
 impl Worker {
     /// It listens at a port that the system chooses.
     pub fn start(certificates: &Path) -> Self {
-        Self::start_with(&["--certificates", certificates.to_str().unwrap()])
+        Self::start_at(0, certificates)
     }
 
     /// With other flags.
     pub fn start_with(flags: &[&str]) -> Self {
-        Self::listening(&[&["worker", "--listen", "127.0.0.1:0"], flags].concat())
+        let command = [&["worker", "--listen", "127.0.0.1:0"], flags].concat();
+        Self::listening(Workshop::new(), &command)
     }
 
     /// At a port of our choice.
     pub fn start_at(port: u16, certificates: &Path) -> Self {
         let address = format!("127.0.0.1:{port}");
-        let folder = certificates.to_str().unwrap();
-        Self::listening(&["worker", "--listen", &address, "--certificates", folder])
+        let command = ["worker", "--listen", &address, "--certificates", OWN];
+        Self::listening(with_copy(certificates), &command)
     }
 
     /// One of the Python SDK, with an oscillator.
     pub fn in_python(certificates: &Path) -> Self {
-        let workshop = Workshop::new();
+        let workshop = with_copy(certificates);
         let mut command = Command::new(&python().interpreter);
         command
             .arg(in_repository("worker/python/tests/models.py"))
-            .args(["--listen", "127.0.0.1:0", "--certificates"])
-            .arg(certificates)
+            .args(["--listen", "127.0.0.1:0", "--certificates", OWN])
             .current_dir(workshop.path())
             .env("PYTHONPATH", in_repository("worker/python/src"));
         let running = workshop.start_command(command);
         Self::once_listening(workshop, running)
     }
 
-    fn listening(command: &[&str]) -> Self {
-        let workshop = Workshop::new();
+    fn listening(workshop: Workshop, command: &[&str]) -> Self {
         let running = workshop.start(command);
         Self::once_listening(workshop, running)
     }
@@ -94,6 +95,20 @@ impl Worker {
     pub fn running(&self) -> &Running {
         &self.running
     }
+}
+
+/// Folder of a worker's certificates in its own workshop.
+const OWN: &str = "own";
+
+/// A workshop with a copy of certificates, as on another machine: its worker has nothing to do with ours.
+fn with_copy(certificates: &Path) -> Workshop {
+    let workshop = Workshop::new();
+    std::fs::create_dir(workshop.path().join(OWN)).unwrap();
+    for file in ["ca.crt", "tls.crt", "tls.key"] {
+        let copy = workshop.path().join(OWN).join(file);
+        std::fs::copy(certificates.join(file), copy).unwrap();
+    }
+    workshop
 }
 
 /// A folder with the certificates of a master and the workers mass1 and mass2, in `certificates`.

@@ -113,15 +113,23 @@ pub struct AccessArguments {
     /// Permit http:// to other machines; nothing is encrypted, and nobody proves who they are
     #[arg(long)]
     plain_text: bool,
+
+    /// File with the token of workers that demand one
+    #[arg(long, value_name = "FILE")]
+    token: Option<PathBuf>,
 }
 
 impl AccessArguments {
     /// Reads the certificates.
     ///
     /// # Errors
-    /// [`StartError::Certificates`].
+    /// [`StartError::Certificates`], [`StartError::Token`].
     pub fn read(&self) -> Result<Access, StartError> {
-        access(self.certificates.as_deref(), self.plain_text)
+        access(
+            self.certificates.as_deref(),
+            self.token.as_deref(),
+            self.plain_text,
+        )
     }
 }
 

@@ -7,6 +7,7 @@ use linchpin_master::connection::{CONTRACT, StartError};
 use linchpin_master::scene::{Coupling, SceneErrors};
 use linchpin_proto::certificates::CertificatesError;
 use linchpin_proto::contract::CallError;
+use linchpin_proto::token::TokenError;
 use linchpin_proto::version::Incompatible;
 use linchpin_worker::server::{ListenError, ServeError};
 
@@ -304,6 +305,9 @@ pub enum CommandError {
     /// Certificates cannot be used.
     #[error(transparent)]
     Certificates(#[from] Box<CertificatesError>),
+    /// A token cannot be used.
+    #[error(transparent)]
+    Token(#[from] TokenError),
     /// Certificates cannot be made.
     #[error(transparent)]
     NewCertificates(#[from] NewCertificatesError),

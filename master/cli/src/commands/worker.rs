@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use linchpin_models::models;
 use linchpin_proto::certificates::Certificates;
+use linchpin_proto::token::Token;
 use linchpin_worker::host::{Host, Limits};
 use linchpin_worker::server::{Address, Reach, Server};
 use tokio::sync::oneshot;
@@ -32,6 +33,10 @@ pub struct Arguments {
     /// Permit an address that other machines can reach without certificates; nothing is encrypted, and anyone is served
     #[arg(long)]
     plain_text: bool,
+
+    /// File with a secret that masters must show, for an address that other users of this machine can reach; only its user may read it
+    #[arg(long, value_name = "FILE")]
+    token: Option<PathBuf>,
 
     /// Threads; with more than one, health is answered during long steps, and instances compute at the same time
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -84,7 +89,11 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         None if arguments.plain_text => Reach::Anyone,
         None => Reach::Local,
     };
-    let server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    let token = arguments.token.as_deref().map(Token::read).transpose()?;
+    let mut server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    if let Some(token) = token {
+        server = server.demanding(token);
+    }
     let mut signals = Signals::watch()?;
     let input_closed = arguments.exit_with_stdin.then(watch_input);
     announce(&server.url());

@@ -33,8 +33,9 @@ class Signals:
         known = description.inputs
         self._max_degree = description.max_input_degree
         places = find(known, request.inputs, "inputs")
+        driven_places = set(places)
         for place, variable in enumerate(known):
-            if variable.default is None and place not in places:
+            if variable.default is None and place not in driven_places:
                 raise misuse("inputs", f'input "{variable.name}" has no default and must be driven')
         _refuse_twice("inputs", request.inputs)
         _refuse_twice("joint_inputs", request.joint_inputs)
@@ -125,6 +126,8 @@ def find(known: Sequence[Variable], names: Sequence[str], field: str) -> list[in
 
 
 def _refuse_twice(field: str, names: Sequence[str]) -> None:
-    for place, name in enumerate(names):
-        if name in names[:place]:
+    listed: set[str] = set()
+    for name in names:
+        if name in listed:
             raise misuse(field, f'input "{name}" is listed twice')
+        listed.add(name)
