@@ -160,7 +160,7 @@ fn compose_gives_the_results_of_a_local_run() {
     }
     let workshop = Workshop::new();
     let project = Project::new("run", &[]);
-    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master"]));
+    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master", "master"]));
     // Out of the volume, as the file says.
     let results = format!("{}:/out/.", project.container("master"));
     fs::create_dir(workshop.path().join("compose")).unwrap();
@@ -212,7 +212,7 @@ fn results_go_to_a_folder_of_its_user() {
     let workshop = Workshop::new();
     let (user, settings) = own_folder(&workshop);
     let project = Project::new("folder", &settings);
-    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master"]));
+    succeed(&mut project.compose(&["up", "--build", "--exit-code-from", "master", "master"]));
     assert!(workshop.read("own/results.csv") == local_results(&workshop, &[]));
     let owner = fs::metadata(workshop.path().join("own/results.csv"))
         .unwrap()

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
+use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::Command;
 use std::time::Duration;
@@ -97,7 +98,8 @@ fn careless(command: Command) -> Command {
         .args(["-c", "umask 0; exec \"$0\" \"$@\""])
         .arg(command.get_program())
         .args(command.get_args())
-        .current_dir(command.get_current_dir().unwrap());
+        .current_dir(command.get_current_dir().unwrap())
+        .process_group(0);
     for (name, value) in command.get_envs() {
         match value {
             Some(value) => shell.env(name, value),

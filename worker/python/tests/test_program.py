@@ -153,6 +153,22 @@ class Program(unittest.TestCase):
         process = self.start("--listen", "0.0.0.0:0", "--plain-text")
         self.assertIn("listening on http://0.0.0.0:", process.stdout.readline())
 
+    def test_certificates_that_cannot_be_used_are_told(self):
+        folder = self.folder()
+        arguments = ("--listen", "127.0.0.1:0", "--certificates", folder)
+        self.assertIn(f"cannot read {folder}/ca.crt", self.ends(self.start(*arguments), 1))
+        for name in ("ca.crt", "tls.crt", "tls.key"):
+            pathlib.Path(folder, name).write_text("no certificate")
+        self.assertIn("make new ones with linchpin certificates", self.ends(self.start(*arguments), 1))
+        said = self.ends(self.start("--listen", f"unix:{folder}/worker", "--certificates", folder), 1)
+        self.assertIn("takes no certificates", said)
+
+    def test_a_socket_is_for_its_user_whatever_the_umask(self):
+        path = f"{self.folder()}/worker"
+        process = self.start("--listen", f"unix:{path}", umask=0)
+        process.stdout.readline()
+        self.assertEqual(os.stat(path).st_mode & 0o777, 0o600)
+
 
 class Addresses(unittest.TestCase):
     def test_they_are_read_and_refused(self):

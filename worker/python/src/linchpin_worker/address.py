@@ -57,8 +57,8 @@ class Address:
         """Refuses an address that this worker must not or cannot listen on, and clears the socket of one that is gone."""
         if not (self.is_local or plain_text or is_tls):
             reach = f"{self} can be reached from other machines, which plain text is not for"
-            ways = "give --certificates FOLDER (linchpin certificates makes it), listen on 127.0.0.1, or permit it with --plain-text"
-            raise ListenError(f"{reach}: {ways} where the network keeps strangers away")
+            ways = "give --certificates FOLDER (linchpin certificates makes it), listen on 127.0.0.1"
+            raise ListenError(f"{reach}: {ways}, or permit it with --plain-text where the network keeps strangers away")
         if is_tls and not self.host:
             reason = "who may connect is decided by the permissions of the socket and its folder"
             raise ListenError(f"{self} takes no certificates: {reason}; leave --certificates away, or listen on IP:PORT")

@@ -55,7 +55,7 @@ class Server:
     """A worker that listens. It serves from the start of a `with` statement to its end."""
 
     def __init__(self, host: Host, address: Address, plain_text: bool = False, certificates: str | None = None) -> None:
-        """Begins to listen; `ListenError` if that cannot be. With a folder of certificates only masters that have one are served."""
+        """Begins to listen; `ListenError` if that cannot be. With a folder of certificates, masters have to show one."""
         address.check(plain_text, certificates is not None)
         secure = credentials(certificates) if certificates is not None else None
         self._host = host
