@@ -106,9 +106,7 @@ fn is_called_by_its_owner_alone(start: Start) {
     let instance = NUMBER;
     assert_denied(other.initialize(&initialize(1.0)));
     assert_denied(other.initialize(&initialize(2.0)));
-    assert_denied(other.export_state(&v1::ExportStateRequest {
-        instance,
-    }));
+    assert_denied(other.export_state(&v1::ExportStateRequest { instance }));
     assert_denied(other.import_state(&v1::ImportStateRequest {
         instance,
         ..Default::default()
