@@ -129,9 +129,9 @@ impl Instance {
     }
 
     /// The committed state as bytes.
-    pub(crate) fn export(&self) -> Result<v1::ExportStateReply, Failure> {
+    pub(crate) fn export(&mut self) -> Result<v1::ExportStateReply, Failure> {
         let writer = self.writer()?;
-        let state = self.motion.committed().bytes().to_vec();
+        let state = self.motion.export()?;
         Ok(v1::ExportStateReply {
             state: Some(v1::ExportedState::sealed(&self.model, writer, state)),
             ..v1::ExportStateReply::default()

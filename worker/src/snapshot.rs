@@ -1,13 +1,18 @@
-//! The state of a subsystem as a row of bytes.
+//! The state of a subsystem: a row of bytes, or a handle to a state that stays inside the solver.
+
+use std::any::Any;
+use std::sync::Arc;
 
 use crate::StepFailure;
 
 /// A state that was written by [`Subsystem::snapshot`](crate::Subsystem::snapshot).
 ///
-/// Numbers are kept bit by bit. Being plain bytes, a snapshot can leave the process.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+/// Numbers are kept bit by bit. Being plain bytes, a snapshot can leave the process; one with a handle can if
+/// [`Subsystem::export`](crate::Subsystem::export) makes bytes of it.
+#[derive(Debug, Clone, Default)]
 pub struct Snapshot {
     bytes: Vec<u8>,
+    handle: Option<Arc<dyn Any + Send + Sync>>,
 }
 
 impl Snapshot {
@@ -18,12 +23,33 @@ impl Snapshot {
 
     /// A snapshot of bytes that were kept elsewhere.
     pub fn from_bytes(bytes: Vec<u8>) -> Self {
-        Self { bytes }
+        Self {
+            bytes,
+            handle: None,
+        }
     }
 
     /// Empties it; its memory is kept.
     pub fn clear(&mut self) {
         self.bytes.clear();
+        self.handle = None;
+    }
+
+    /// Takes over another one, in memory that is already there.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.bytes.clone_from(&other.bytes);
+        self.handle.clone_from(&other.handle);
+    }
+
+    /// Keeps a handle to a state that stays inside the solver. It is dropped when no snapshot has it any more: then the solver may
+    /// forget that state.
+    pub fn put_handle(&mut self, handle: Arc<dyn Any + Send + Sync>) {
+        self.handle = Some(handle);
+    }
+
+    /// The handle, if there is one of this type.
+    pub fn handle<T: 'static>(&self) -> Option<&T> {
+        self.handle.as_deref()?.downcast_ref()
     }
 
     /// Appends bytes.

@@ -75,6 +75,12 @@ pub trait Subsystem: Send {
     /// Goes back, bit by bit, to the state that [`Subsystem::snapshot`] wrote.
     fn restore(&mut self, from: &Snapshot) -> Result<(), StepFailure>;
 
+    /// The bytes of a state that [`Subsystem::snapshot`] wrote; [`Subsystem::restore`] goes back to a snapshot that has these bytes alone. Only
+    /// who keeps handles in snapshots, and whose capabilities say `exportable_snapshot`, needs to write this.
+    fn export(&mut self, from: &Snapshot) -> Result<Vec<u8>, StepFailure> {
+        Ok(from.bytes().to_vec())
+    }
+
     /// Steps once more over the interval of the last [`Subsystem::step`], with one input a little different, from where that step
     /// started or, behind an instant at which a step is cut, from a state a little different; it has been restored. The difference of the two results becomes a column of the
     /// coupling Jacobian, so a solver with step-size control should repeat the internal steps of that last call

@@ -3,6 +3,7 @@
 use linchpin_proto::v1;
 
 use super::discover::{find_variable, marker_of, model_of, recorded_outputs};
+use super::forward_only;
 use super::options::Connect;
 use super::refusal::{Refusals, refuse_setup};
 use super::start::connect_one;
@@ -33,6 +34,7 @@ pub fn check_some(
 fn check_one(scene: &Scene, number: usize, connect: &mut Connect<'_>) -> Result<(), RunError> {
     let mut subsystem = connect_one(scene, number, connect)?;
     let model = model_of(scene, number, &subsystem)?;
+    forward_only::refuse(scene, number, &model)?;
     let mut request = v1::InitializeRequest {
         model: model.name.clone(),
         parameters: scene.subsystems[number].parameters.clone(),

@@ -8,7 +8,7 @@ use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
-use super::{consistent, impacts, inside, panels, redundancy, velocities};
+use super::{consistent, forward_only, impacts, inside, panels, redundancy, velocities};
 use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
@@ -36,6 +36,9 @@ impl CoSimulation {
     ) -> Result<Self, RunError> {
         let mut subsystems = connect_all(scene, connect)?;
         let models = models_of(scene, &subsystems)?;
+        for (number, model) in models.iter().enumerate() {
+            forward_only::refuse(scene, number, model)?;
+        }
         let joints = mark(scene, &models)?;
         let connections = connect_signals(scene, &models)?;
         let scene = &fit(scene, &models, &joints, &connections);

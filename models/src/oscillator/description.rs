@@ -40,6 +40,7 @@ pub fn model() -> v1::Model {
             directional_derivatives: true,
             ..capabilities()
         }),
+        ..v1::Model::default()
     }
 }
 

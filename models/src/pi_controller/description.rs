@@ -71,5 +71,6 @@ pub fn model(setpoint: f64) -> v1::Model {
             directional_derivatives: true,
             ..solvers::capabilities()
         }),
+        ..v1::Model::default()
     }
 }

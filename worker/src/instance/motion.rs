@@ -30,16 +30,10 @@ pub(super) struct Kept {
 }
 
 impl Kept {
-    /// The state itself.
-    pub(super) fn bytes(&self) -> &[u8] {
-        self.snapshot.bytes()
-    }
-
     /// Copies into memory that is already there.
     pub(super) fn copy_from(&mut self, other: &Self) {
         self.number = other.number;
-        self.snapshot.clear();
-        self.snapshot.put_bytes(other.snapshot.bytes());
+        self.snapshot.copy_from(&other.snapshot);
     }
 }
 
@@ -134,6 +128,12 @@ impl Motion {
 
     pub(super) fn committed(&self) -> &Kept {
         &self.committed
+    }
+
+    /// The committed state as bytes.
+    pub(super) fn export(&mut self) -> Result<Vec<u8>, Failure> {
+        let exported = self.subsystem.export(&self.committed.snapshot);
+        exported.map_err(|failure| Failure::fatal(failure.to_string()))
     }
 
     /// Takes the signals of a request for the steps that follow.

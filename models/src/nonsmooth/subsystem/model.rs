@@ -66,6 +66,7 @@ impl Model for NonsmoothModel {
                 impacts: collides,
                 ..v1::Capabilities::default()
             }),
+            ..v1::Model::default()
         })
     }
 

@@ -170,8 +170,7 @@ impl Motion {
             first.clear();
             self.subsystem.snapshot(first);
             for other in others {
-                other.clear();
-                other.put_bytes(first.bytes());
+                other.copy_from(first);
             }
         }
     }

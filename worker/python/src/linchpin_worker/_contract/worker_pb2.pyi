@@ -92,7 +92,7 @@ class DescribeReply(_message.Message):
     def __init__(self, protocol: _Optional[_Union[ProtocolVersion, _Mapping]] = ..., worker: _Optional[str] = ..., worker_version: _Optional[str] = ..., models: _Optional[_Iterable[_Union[Model, _Mapping]]] = ...) -> None: ...
 
 class Model(_message.Message):
-    __slots__ = ("name", "description", "inputs", "outputs", "parameters", "markers", "solvers", "states", "capabilities")
+    __slots__ = ("name", "description", "inputs", "outputs", "parameters", "markers", "solvers", "states", "capabilities", "forward_only")
     NAME_FIELD_NUMBER: _ClassVar[int]
     DESCRIPTION_FIELD_NUMBER: _ClassVar[int]
     INPUTS_FIELD_NUMBER: _ClassVar[int]
@@ -102,6 +102,7 @@ class Model(_message.Message):
     SOLVERS_FIELD_NUMBER: _ClassVar[int]
     STATES_FIELD_NUMBER: _ClassVar[int]
     CAPABILITIES_FIELD_NUMBER: _ClassVar[int]
+    FORWARD_ONLY_FIELD_NUMBER: _ClassVar[int]
     name: str
     description: str
     inputs: _containers.RepeatedCompositeFieldContainer[Variable]
@@ -111,7 +112,8 @@ class Model(_message.Message):
     solvers: _containers.RepeatedCompositeFieldContainer[SolverKind]
     states: _containers.RepeatedCompositeFieldContainer[StateVariable]
     capabilities: Capabilities
-    def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., inputs: _Optional[_Iterable[_Union[Variable, _Mapping]]] = ..., outputs: _Optional[_Iterable[_Union[Variable, _Mapping]]] = ..., parameters: _Optional[_Iterable[_Union[Parameter, _Mapping]]] = ..., markers: _Optional[_Iterable[_Union[Marker, _Mapping]]] = ..., solvers: _Optional[_Iterable[_Union[SolverKind, _Mapping]]] = ..., states: _Optional[_Iterable[_Union[StateVariable, _Mapping]]] = ..., capabilities: _Optional[_Union[Capabilities, _Mapping]] = ...) -> None: ...
+    forward_only: str
+    def __init__(self, name: _Optional[str] = ..., description: _Optional[str] = ..., inputs: _Optional[_Iterable[_Union[Variable, _Mapping]]] = ..., outputs: _Optional[_Iterable[_Union[Variable, _Mapping]]] = ..., parameters: _Optional[_Iterable[_Union[Parameter, _Mapping]]] = ..., markers: _Optional[_Iterable[_Union[Marker, _Mapping]]] = ..., solvers: _Optional[_Iterable[_Union[SolverKind, _Mapping]]] = ..., states: _Optional[_Iterable[_Union[StateVariable, _Mapping]]] = ..., capabilities: _Optional[_Union[Capabilities, _Mapping]] = ..., forward_only: _Optional[str] = ...) -> None: ...
 
 class Variable(_message.Message):
     __slots__ = ("name", "unit", "description", "default")
