@@ -127,6 +127,12 @@ impl Connector {
                 Ok(Some(command.into()))
             }
             Served::Command(command) => Ok(Some(command.clone())),
+            Served::Fmu(path) => {
+                let path = path.to_string_lossy().into_owned();
+                let options = ["worker", "--exit-with-stdin", "--fmu"].map(str::to_owned);
+                let program = std::iter::once(this_program()?);
+                Ok(Some(program.chain(options).chain([path]).collect()))
+            }
             Served::Address(_) => Ok(None),
         }
     }

@@ -109,6 +109,8 @@ impl Launcher {
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
             .stderr(output)
+            // What a worker that is killed leaves behind, such as an unpacked FMU, goes with the folder.
+            .env("TMPDIR", self.folder.path())
             // A group of its own: Ctrl-C at the terminal reaches the master only, which then ends its workers, and a
             // worker ends together with whatever it has started.
             .process_group(0);

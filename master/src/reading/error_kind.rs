@@ -312,16 +312,18 @@ pub enum SceneErrorKind {
     #[error("the scene has no subsystem; it needs at least one [[subsystem]]")]
     NoSubsystem,
     /// A subsystem that nothing serves.
-    #[error("`{subsystem}` gives neither model nor address nor command")]
+    #[error("`{subsystem}` gives neither model nor address, command or fmu")]
     NotServed {
         /// The subsystem.
         subsystem: String,
     },
-    /// A subsystem with both address and command.
-    #[error("`{subsystem}` gives both address and command; exactly one of them may stand")]
+    /// A subsystem with two of address, command and fmu.
+    #[error("`{subsystem}` gives both {} and {}; exactly one of them may stand", keys[0], keys[1])]
     ServedTwice {
         /// The subsystem.
         subsystem: String,
+        /// The keys.
+        keys: [&'static str; 2],
     },
     /// An address that cannot be reached by this program.
     #[error(
@@ -408,7 +410,8 @@ impl SceneErrorKind {
                 Some(format!("for example {first_name} = {example}"))
             }
             Self::NotServed { .. } => Some(
-                "give model = \"oscillator\" (built in), address = \"http://HOST:PORT\" or command = [\"PROGRAM\"]".into(),
+                "give model = \"oscillator\" (built in), address = \"http://HOST:PORT\", command = [\"PROGRAM\"] or fmu = \"PATH\""
+                    .into(),
             ),
             Self::ServedTwice { .. } => Some("remove one of them".into()),
             Self::NoCertificates { .. } => Some(

@@ -24,6 +24,8 @@ pub enum Served {
     Address(String),
     /// A program that the run starts: the program and its arguments.
     Command(Vec<String>),
+    /// An FMU, which the run serves by a process of its own.
+    Fmu(PathBuf),
 }
 
 /// Whether the fused exchange may be used with a worker.

@@ -1,6 +1,7 @@
 //! Reads `[[subsystem]]`.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use linchpin_proto::v1::{self, value::Kind};
 
@@ -11,7 +12,7 @@ use crate::reading::key::{Key, Takes, texts};
 use crate::reading::reader::{Field, Problems, Section, choice, collect, given, is_name};
 use crate::reading::written::Value;
 
-pub(super) const KEYS: [Key; 8] = [
+pub(super) const KEYS: [Key; 9] = [
     Key::new("name", Takes::Name)
         .required("name = \"mass1\"")
         .means("letters, digits, `-`, `_`"),
@@ -27,6 +28,10 @@ pub(super) const KEYS: [Key; 8] = [
             "a worker that the run starts; `{address}` in it is replaced, or `--listen ADDRESS` \
              appended",
         ),
+    Key::new("fmu", Takes::Text).default("").means(
+        "an FMU for co-simulation, from the folder of this file; the run serves it by a process of its own \
+         ([FMUs](../guide/fmu.md))",
+    ),
     Key::new("parameters", Takes::Open(&[]))
         .default("model's defaults")
         .means("`linchpin describe` lists them; a table inside stands for dotted names, see below"),
@@ -70,6 +75,7 @@ pub(super) fn read(
         model,
         address,
         command,
+        fmu,
         parameters,
         free_velocities,
         solver,
@@ -81,18 +87,30 @@ pub(super) fn read(
         "" => field.refuse("the name of a model", problems),
         model => Some(model.to_owned()),
     });
-    let served = match (address, command) {
-        (Some(address), None) => read_address(&address, security, problems).map(Served::Address),
-        (None, Some(command)) => read_command(&command, problems).map(Served::Command),
-        (None, None) if is_named => Some(Served::BuiltIn),
-        (None, None) => {
+    let served = match (address, command, fmu) {
+        (Some(address), None, None) => {
+            read_address(&address, security, problems).map(Served::Address)
+        }
+        (None, Some(command), None) => read_command(&command, problems).map(Served::Command),
+        (None, None, Some(fmu)) => read_fmu(&fmu, problems).map(Served::Fmu),
+        (None, None, None) if is_named => Some(Served::BuiltIn),
+        (None, None, None) => {
             let subsystem = section.key.clone();
             problems.report(section.spot, SceneErrorKind::NotServed { subsystem });
             None
         }
-        (Some(address), Some(_)) => {
-            let subsystem = section.key.clone();
-            address.report(SceneErrorKind::ServedTwice { subsystem }, problems);
+        (address, command, fmu) => {
+            let all = [("address", address), ("command", command), ("fmu", fmu)];
+            let both: Vec<_> = { all.into_iter() }
+                .filter_map(|(key, field)| Some((key, field?)))
+                .collect();
+            if let [(one, field), (other, _), ..] = &both[..] {
+                let kind = SceneErrorKind::ServedTwice {
+                    subsystem: section.key.clone(),
+                    keys: [one, other],
+                };
+                field.report(kind, problems);
+            }
             None
         }
     };
@@ -112,6 +130,15 @@ pub(super) fn read(
         solver: solver?,
         calls: calls?,
     })
+}
+
+fn read_fmu(field: &Field<'_>, problems: &mut Problems<'_>) -> Option<PathBuf> {
+    match field.text(problems)? {
+        text if text.is_empty() || text.contains('\0') => {
+            field.refuse("the path of an FMU such as \"mass.fmu\"", problems)
+        }
+        path => Some(problems.written.folder().join(path)),
+    }
 }
 
 fn read_address(

@@ -1,4 +1,4 @@
-//! `linchpin check`: validates a scene and starts nothing.
+//! `linchpin check`: validates a scene and starts no worker but those of FMUs.
 
 use std::path::Path;
 
@@ -14,12 +14,14 @@ use super::common::{SceneArguments, case_folders, print, print_json, warn};
 use crate::connect::{Connector, Place};
 use crate::study::report::{Depth, Plan};
 
-/// Validate a scene without starting anything
+/// Validate a scene without running it
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   linchpin check scenes/oscillator.toml
   linchpin check scenes/oscillator.toml --set coupling.index=3 --set coupling.degree=1
   linchpin check scenes/oscillator.toml --json
+
+No worker is started but those of FMUs, which are asked what they can do.
 
 Exit code 0: the scene can run (warnings may have been printed); 2: it cannot.")]
 pub struct Arguments {
@@ -163,7 +165,7 @@ fn check_scene(arguments: &SceneArguments) -> Result<Checked, CommandError> {
         checked.warnings.extend(check_case(&scene, case)?);
     }
     let elsewhere = scene.subsystems.into_iter();
-    let elsewhere = elsewhere.filter(|subsystem| subsystem.served != Served::BuiltIn);
+    let elsewhere = elsewhere.filter(|subsystem| !can_be_asked(subsystem));
     checked.unchecked = elsewhere.map(|subsystem| subsystem.name).collect();
     Ok(checked)
 }
@@ -206,14 +208,18 @@ fn check_case(scene: &Scene, case: &Case) -> Result<Vec<String>, CommandError> {
     Ok(told)
 }
 
-/// Starts the scene in this process; where other workers would be needed, only what can be told of the built-in models.
+/// Built-in models are asked in this process, FMUs each in one that is started for it.
+fn can_be_asked(subsystem: &Subsystem) -> bool {
+    matches!(subsystem.served, Served::BuiltIn | Served::Fmu(_))
+}
+
+/// Starts the scene, with built-in models in this process; where other workers would be needed, only what can be told without them.
 fn check(scene: &Scene) -> Result<(), CommandError> {
     let connector = Connector::new(Place::InProcess);
     let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
-    let is_built_in = |subsystem: &Subsystem| subsystem.served == Served::BuiltIn;
-    let checked = match scene.subsystems.iter().all(is_built_in) {
+    let checked = match scene.subsystems.iter().all(can_be_asked) {
         true => CoSimulation::start(scene, &mut connect, &Options::default()).map(|_| ()),
-        false => check_some(scene, is_built_in, &mut connect),
+        false => check_some(scene, can_be_asked, &mut connect),
     };
     checked.map_err(CommandError::Run)
 }

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use linchpin_fmu::FmuError;
 use linchpin_master::RunError;
 use linchpin_master::connection::{CONTRACT, StartError};
 use linchpin_master::scene::{Coupling, SceneErrors};
@@ -50,6 +51,9 @@ pub enum CommandError {
         /// Why.
         source: Box<CommandError>,
     },
+    /// An FMU cannot be served.
+    #[error(transparent)]
+    Fmu(#[from] FmuError),
     /// A run does not go on from a checkpoint.
     #[error(transparent)]
     Resume(#[from] ResumeError),
@@ -356,6 +360,7 @@ impl CommandError {
             | Self::Resume(ResumeError::NoCheckpoint { .. } | ResumeError::OtherRun { .. })
             | Self::NothingToAnimate
             | Self::NewCertificates(NewCertificatesError::NoWorker { .. })
+            | Self::Fmu(_)
             | Self::TooManyParts { .. }
             | Self::NoScene { .. }
             | Self::NoSettings { .. }

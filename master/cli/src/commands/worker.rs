@@ -1,13 +1,15 @@
-//! `linchpin worker`: serves the built-in models.
+//! `linchpin worker`: serves the built-in models, or an FMU.
 
 use std::io::{Read, Write};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
+use linchpin_fmu::Fmu;
 use linchpin_models::models;
 use linchpin_proto::certificates::Certificates;
 use linchpin_proto::token::Token;
+use linchpin_worker::Model;
 use linchpin_worker::host::{Host, Limits};
 use linchpin_worker::server::{Address, Reach, Server};
 use tokio::sync::oneshot;
@@ -15,16 +17,21 @@ use tokio::sync::oneshot;
 use super::CommandError;
 use crate::interrupt::Signals;
 
-/// Serve the built-in models over gRPC
+/// Serve the built-in models, or an FMU, over gRPC
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   linchpin worker --listen 127.0.0.1:50051
   linchpin worker --listen unix:/run/linchpin/mass1.sock
+  linchpin worker --fmu engine.fmu --listen 127.0.0.1:50052
   linchpin worker --listen 0.0.0.0:50051 --certificates certificates/workers/mass1")]
 pub struct Arguments {
     /// Where to listen: IP:PORT (port 0: the system chooses) or unix:/PATH
     #[arg(long, value_name = "ADDRESS", default_value = "127.0.0.1:0")]
     listen: Address,
+
+    /// Serve this FMU for co-simulation (FMI 2.0 or 3.0) in place of the built-in models
+    #[arg(long, value_name = "FILE")]
+    fmu: Option<PathBuf>,
 
     /// Folder with ca.crt, tls.crt and tls.key (linchpin certificates makes it): only masters with a certificate are served, by TLS
     #[arg(long, value_name = "FOLDER", conflicts_with = "plain_text")]
@@ -83,7 +90,11 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         lease: Duration::from_secs_f64(arguments.lease),
         ..Limits::default()
     };
-    let host = Arc::new(Host::with_limits(models(), limits));
+    let models: Vec<Box<dyn Model>> = match &arguments.fmu {
+        Some(path) => vec![Box::new(Fmu::load(path)?)],
+        None => models(),
+    };
+    let host = Arc::new(Host::with_limits(models, limits));
     let reach = match &arguments.certificates {
         Some(folder) => Reach::Masters(Certificates::read(folder)?.for_worker()?),
         None if arguments.plain_text => Reach::Anyone,

@@ -78,6 +78,9 @@ fn node(subsystem: &Subsystem) -> Node {
         Served::BuiltIn => None,
         Served::Address(address) => Some(address.clone()),
         Served::Command(words) => Some(words.join(" ")),
+        Served::Fmu(path) => path
+            .file_name()
+            .map(|name| name.to_string_lossy().into_owned()),
     };
     let model = subsystem
         .model

@@ -67,7 +67,10 @@ fn a_subsystem_is_served_in_exactly_one_way() {
     assert_mistake(
         &[(MODEL, "")],
         "[[subsystem]]",
-        &["neither model nor address nor command", "http://HOST:PORT"],
+        &[
+            "neither model nor address, command or fmu",
+            "http://HOST:PORT",
+        ],
     );
     let both = "command = [\"w\"]\naddress = \"http://h:1\" ";
     assert_mistake(
