@@ -8,6 +8,7 @@ pub mod chain;
 pub mod convergence;
 pub mod errors;
 pub mod evidence;
+pub mod fmus;
 pub mod golden;
 pub mod hinges;
 pub mod in_space;

@@ -4,6 +4,7 @@ use std::os::unix::fs::symlink;
 
 use clap::Parser;
 use linchpin::command_line::Arguments;
+use linchpin_tests::fmus;
 use linchpin_tests::process::Workshop;
 
 use crate::command::{Command, commands, inline_commands};
@@ -57,7 +58,7 @@ fn all(page: &Page) -> Vec<Command> {
     all
 }
 
-/// A folder with the scenes of the repository and those that the page has.
+/// A folder with the scenes of the repository, those that the page has, and the FMUs that it speaks of.
 pub fn workshop(page: &Page) -> Workshop {
     let workshop = Workshop::new();
     symlink(repository().join("scenes"), workshop.path().join("scenes")).unwrap();
@@ -69,6 +70,9 @@ pub fn workshop(page: &Page) -> Workshop {
         let name = block.lines.first().and_then(|line| line.strip_prefix("# "));
         if let Some(name) = name.filter(|name| name.ends_with(".toml") && !name.contains(' ')) {
             workshop.write(name, block.lines.join("\n") + "\n");
+            if block.lines.iter().any(|line| line.starts_with("fmu = ")) {
+                fmus::write_examples(workshop.path());
+            }
         }
     }
     workshop
