@@ -13,6 +13,7 @@
 //! * `impulses`: what of them goes to partners;
 //! * `error`: the error of a step, and with it the degrees of the next one;
 //! * `unresolved`: signals that the step does not resolve;
+//! * `singular`: positions that do not determine the multipliers;
 //! * `rejection`: what may stand against a step;
 //! * `run`: what takes part.
 
@@ -25,6 +26,7 @@ mod impulses;
 mod jacobian;
 mod rejection;
 mod run;
+mod singular;
 mod unresolved;
 
 pub(crate) use advance::reach;
@@ -36,6 +38,7 @@ pub(crate) use run::Run;
 use crate::accuracy::Estimate;
 use crate::error::RunError;
 use crate::policies::iteration::IterationControl;
+use crate::policies::singular_positions::Approach;
 use crate::results::{Outcome, Passes, Verdict};
 use crate::time::MacroStep;
 use advance::advance;
@@ -200,10 +203,9 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         run.iteration.pass_impact();
     }
     let mut columns = 0.0;
-    let (mut is_near_singular, mut least) = (false, 0.0);
+    let mut approach = Approach::default();
     if let Some((mut own, policies)) = run.correcting() {
-        is_near_singular = own.note_position(step, accepted.is_unsolved);
-        least = own.singular_position().map_or(0.0, |nearby| nearby.least);
+        approach = own.note_position(step, accepted.has_impact, accepted.is_unsolved);
         let workers = &mut *own.workers;
         let layout = own.layout;
         own.method
@@ -220,7 +222,8 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
             policies.errors.accept(layout, step, error);
         }
     }
-    run.iteration.approach_singular_position(is_near_singular);
+    run.iteration
+        .approach_singular_position(approach.needs_columns);
     let wish = match (&mut run.step_size, accepted.estimates) {
         (Some(step_size), _) if accepted.has_impact => step_size.pass_break(step),
         (Some(step_size), _) if accepted.has_jumped => step_size.pass_jump(step),
@@ -229,7 +232,7 @@ fn accept(run: &mut Run, step: MacroStep, accepted: Accepted) -> f64 {
         }
         _ => step.length,
     };
-    wish.max(least)
+    wish.max(approach.least)
 }
 
 /// What the workers have reached: tells the method, compares it with what was promised, and learns from the difference.

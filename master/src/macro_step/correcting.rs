@@ -324,23 +324,6 @@ impl Correcting<'_> {
         }
     }
 
-    /// The singular position that the step which was corrected last ends near, or begins near.
-    pub fn singular_position(&self) -> Option<SingularPosition> {
-        self.own
-            .singular_positions
-            .nearby(self.method.least_pivot())
-    }
-
-    /// Takes note of where the step ends, which is taken; whether the next one needs new columns for that.
-    pub fn note_position(&mut self, step: MacroStep, is_unsolved: bool) -> bool {
-        let least_pivot = self.method.least_pivot();
-        let own = &mut self.own.singular_positions;
-        if is_unsolved {
-            own.take_unsolved();
-        }
-        own.accept(step, least_pivot)
-    }
-
     /// How well the outputs after the advance meet what their linearisation promised.
     pub fn judge(&mut self) -> Verdict {
         let own = &mut *self.own;

@@ -14,7 +14,7 @@ use crate::time::MacroStep;
 const NEAR: f64 = 0.1;
 
 /// What has come below this share has passed the position.
-const PASSED: f64 = 0.03;
+const PASSED: f64 = 0.01;
 
 /// Near a singular position columns are those of a step whose least pivot differs by no more than this factor.
 const LIKE: f64 = 1.5;
@@ -22,6 +22,15 @@ const LIKE: f64 = 1.5;
 /// Steps near a singular position are not shorter than this share of the last one before: larger ones miss more of the tolerance than they have
 /// to, smaller ones come nearer and nearer to the position and never across.
 const LEAST: f64 = 1.0 / 32.0;
+
+/// What a step that is taken near a singular position means for the next one; nothing elsewhere.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Approach {
+    /// Whether it needs columns of its own.
+    pub needs_columns: bool,
+    /// Its least length in s.
+    pub least: f64,
+}
 
 /// Watches how far the equations of the steps are from having no unique solution.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -54,8 +63,8 @@ impl SingularPositions {
         })
     }
 
-    /// Takes a step; whether the next one needs columns of its own for what changes near a singular position.
-    pub fn accept(&mut self, step: MacroStep, least_pivot: f64) -> bool {
+    /// Takes a step; what follows for the next one.
+    pub fn accept(&mut self, step: MacroStep, least_pivot: f64) -> Approach {
         self.usual = self.usual.max(least_pivot);
         if !self.is_near(least_pivot) {
             self.length = step.length;
@@ -69,7 +78,10 @@ impl SingularPositions {
         if self.is_near(least_pivot) {
             let nearest = self.nearest.filter(|(_, least)| *least <= least_pivot);
             self.nearest = Some(nearest.unwrap_or((step.end, least_pivot)));
-            return !is_like;
+            return Approach {
+                needs_columns: !is_like,
+                least: LEAST * self.length,
+            };
         }
         if let Some((t, least)) = self.nearest.take()
             && least < PASSED * self.usual
@@ -78,7 +90,7 @@ impl SingularPositions {
             self.passages.first.get_or_insert(t);
             tracing::debug!(t, least_pivot = least, "passed a singular position");
         }
-        false
+        Approach::default()
     }
 
     /// The step is taken although its error is larger than allowed: shorter ones would be no better.
@@ -103,6 +115,7 @@ mod tests {
             let start = 0.1 * number as f64;
             let (length, end) = (0.1, start + 0.1);
             own.accept(MacroStep { start, length, end }, pivot)
+                .needs_columns
         });
         (steps.collect(), own.passages())
     }
