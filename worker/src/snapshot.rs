@@ -15,6 +15,20 @@ pub struct Snapshot {
     handle: Option<Arc<dyn Any + Send + Sync>>,
 }
 
+/// Equal bytes, and the same handle or none.
+impl PartialEq for Snapshot {
+    fn eq(&self, other: &Self) -> bool {
+        let is_same_handle = match (&self.handle, &other.handle) {
+            (None, None) => true,
+            (Some(own), Some(other)) => Arc::ptr_eq(own, other),
+            _ => false,
+        };
+        is_same_handle && self.bytes == other.bytes
+    }
+}
+
+impl Eq for Snapshot {}
+
 impl Snapshot {
     /// The bytes.
     pub fn bytes(&self) -> &[u8] {

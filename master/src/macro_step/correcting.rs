@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::impacts::Impacts;
 use super::jacobian::{Jacobian, PointJacobian};
 use super::rejection::singular;
-use crate::accuracy::{Attempts, Change, Difference, PositionErrors, SingularPosition, Tolerance};
+use crate::accuracy::{Attempts, Change, Difference, PositionErrors, Tolerance};
 use crate::error::RunError;
 use crate::layout::Layout;
 use crate::methods::Corrected;

@@ -18,7 +18,6 @@ pub struct Rejection {
 
 impl Rejection {
     /// The error is larger than allowed: that `found`, and that which the step would have had with the degrees of its repetition.
-
     pub fn by_error(
         layout: &Layout,
         step: MacroStep,

@@ -29,7 +29,7 @@ impl Correcting<'_> {
             own.take_unsolved();
         }
         match has_impact {
-            true => Approach::default(),
+            true => own.restart(),
             false => own.accept(step, least_pivot),
         }
     }

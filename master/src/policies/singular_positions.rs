@@ -93,6 +93,15 @@ impl SingularPositions {
         Approach::default()
     }
 
+    /// A step with an impact says nothing of positions; behind it contacts are others, and with them the equations.
+    pub fn restart(&mut self) -> Approach {
+        *self = Self {
+            passages: self.passages,
+            ..Self::default()
+        };
+        Approach::default()
+    }
+
     /// The step is taken although its error is larger than allowed: shorter ones would be no better.
     pub fn take_unsolved(&mut self) {
         self.passages.unsolved_steps += 1;

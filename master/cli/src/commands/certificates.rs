@@ -127,7 +127,7 @@ fn called(scene: &Scene) -> Vec<(String, Vec<String>)> {
             WorkerAddress::Tls(host) => Some((own.name.clone(), vec![host.name])),
             WorkerAddress::Plain(_) | WorkerAddress::Unix => None,
         },
-        Served::BuiltIn | Served::Command(_) => None,
+        Served::BuiltIn | Served::Command(_) | Served::Fmu(_) => None,
     });
     hosts.collect()
 }
