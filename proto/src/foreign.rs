@@ -107,7 +107,10 @@ impl Failure {
     #[must_use]
     pub fn cleaned(mut self) -> Self {
         clean_text(&mut self.message);
-        self.field.iter_mut().for_each(clean_name);
+        // The sender may have cut it, and says so at its end.
+        if let Some(field) = &mut self.field {
+            *field = clean(field, 2 * LONGEST_NAME);
+        }
         self.variable.iter_mut().for_each(clean_name);
         self
     }

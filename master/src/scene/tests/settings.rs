@@ -223,7 +223,10 @@ fn the_increment_is_automatic_or_a_number() {
 #[test]
 fn a_subsystem_may_run_elsewhere() {
     let model = "model = \"oscillator\" ";
-    let network = scene(&[(model, "address = \"http://10.0.0.7:4711\" ")]);
+    let network = scene(&[
+        (model, "address = \"http://10.0.0.7:4711\" "),
+        ("[coupling]", "[security]\nplain_text = true\n\n[coupling]"),
+    ]);
     let address = "http://10.0.0.7:4711".to_owned();
     assert_eq!(network.subsystems[0].served, Served::Address(address));
     assert_eq!(network.subsystems[0].model, None);
