@@ -181,3 +181,30 @@ fn estimates_follow_the_error() {
         }
     }
 }
+
+/// Loads that turn with a body follow its attitude, which is exchanged: what its curve misses is told as an error of angles, against the same
+/// scene with degree 3 and a quarter of the step.
+#[test]
+fn the_errors_of_exchanged_attitudes_are_told() {
+    let gimbal = include_str!("../../scenes/spatial/gimbal.toml");
+    let run = |coupling: &str| {
+        let scene = with_settings(gimbal, coupling, &[]);
+        try_run(&scene, Place::InProcess, &Options::default()).unwrap()
+    };
+    let coarse = run("method=hermite degree=2 macro_step=4e-3");
+    let fine = run("method=hermite degree=3 macro_step=1e-3");
+    let mut wrong: f64 = 0.0;
+    for part in ["w", "x", "y", "z"] {
+        let name = format!("top.start_q{part}");
+        let (coarse, fine) = (coarse.column(&name), fine.column(&name));
+        let pairs = coarse.iter().zip(fine.iter().step_by(4));
+        wrong = pairs.fold(wrong, |wrong, (own, exact)| wrong.max((own - exact).abs()));
+    }
+    let told = coarse.statistics.estimated_errors.unwrap();
+    assert!(wrong > 1e-10, "{wrong:e}");
+    assert!(
+        wrong < told.accumulated && told.largest < 1e-4,
+        "{wrong:e}, {told:?}"
+    );
+    assert_eq!(told.of, "top.start.rotation");
+}

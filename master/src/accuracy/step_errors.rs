@@ -213,7 +213,13 @@ impl Tolerance {
                     .find(|one| (one.first..one.first + one.size()).contains(&variable))?;
                 match exchanged.what {
                     What::Output(output) => self.group_of_output(exchanged.subsystem, output),
-                    What::Attitude { .. } => None,
+                    // What is allowed of it is told of 1 rad.
+                    What::Attitude { places, .. } => {
+                        let mut groups = places
+                            .iter()
+                            .map(|&place| self.group_of_output(exchanged.subsystem, place));
+                        return groups.find_map(|group| Some((group?, 1.0)));
+                    }
                 }
             }
         };
