@@ -158,7 +158,7 @@ mod tests {
         };
         assert!(
             told.field
-                .is_some_and(|field| field.ends_with("(9744 more bytes)"))
+                .is_some_and(|field| field.ends_with("(8744 more bytes)"))
         );
     }
 
