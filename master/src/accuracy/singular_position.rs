@@ -7,6 +7,6 @@ pub struct SingularPosition {
     /// The length in s of a step that ends as far behind it as it begins before it, where steps come nearer: neither end is nearer than it has to
     /// be.
     pub across: Option<f64>,
-    /// The least length of steps in s.
+    /// The length in s at which attempts come to an end.
     pub least: f64,
 }

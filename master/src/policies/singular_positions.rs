@@ -19,8 +19,8 @@ const PASSED: f64 = 0.01;
 /// Near a singular position columns are those of a step whose least pivot differs by no more than this factor.
 const LIKE: f64 = 1.5;
 
-/// Steps near a singular position are not shorter than this share of the last one before: larger ones miss more of the tolerance than they have
-/// to, smaller ones come nearer and nearer to the position and never across.
+/// Attempts at a step near a singular position come to an end at this share of the last step before: with larger ones a step misses more of the
+/// tolerance than it has to, with smaller ones steps come nearer and nearer to the position and never across.
 const LEAST: f64 = 1.0 / 32.0;
 
 /// What a step that is taken near a singular position means for the next one; nothing elsewhere.

@@ -63,7 +63,7 @@ impl Statistics {
             warnings.push(Warning::Redundant(self.redundancy.clone()));
         }
         let singular = self.singular_positions;
-        if singular.count > 0 {
+        if singular.count > 0 || singular.unsolved_steps > 0 {
             warnings.push(Warning::Singular(singular));
         }
         let (steps, of) = (self.verdicts.poor, self.macro_steps);
@@ -118,15 +118,20 @@ impl fmt::Display for Warning {
                 first,
                 unsolved_steps,
             }) => {
-                let positions = match count {
-                    1 => "a singular position".to_owned(),
-                    _ => format!("{count} singular positions"),
-                };
-                let t = first.unwrap_or_default();
+                match (count, first) {
+                    (1, Some(t)) => write!(
+                        f,
+                        "the mechanism passes a singular position at t = {t:.6} s"
+                    )?,
+                    (_, Some(t)) => write!(
+                        f,
+                        "the mechanism passes {count} singular positions, the first time at t = {t:.6} s"
+                    )?,
+                    (_, None) => write!(f, "the mechanism comes near a singular position")?,
+                }
                 write!(
                     f,
-                    "the mechanism passes {positions}, the first time at t = {t:.6} s: there the joints do not determine their loads, \
-                     and macro steps are less accurate than others"
+                    ": there the joints do not determine their loads, and macro steps are less accurate than others"
                 )?;
                 match unsolved_steps {
                     0 => Ok(()),
@@ -191,6 +196,40 @@ mod tests {
     fn a_sound_run_is_not_warned_of() {
         assert!(statistics(0, None).warnings().is_empty());
         assert!(statistics(10, Some([1e-3, 0.05])).warnings().is_empty());
+    }
+
+    #[test]
+    fn singular_positions_are_told_with_the_steps_that_they_spoil() {
+        let told = |count: u64, unsolved_steps: u64| {
+            let singular_positions = SingularPassages {
+                count,
+                first: (count > 0).then_some(0.71),
+                unsolved_steps,
+            };
+            let warnings = Statistics {
+                singular_positions,
+                ..statistics(0, None)
+            }
+            .warnings();
+            warnings.first().map(Warning::to_string)
+        };
+        assert_eq!(told(0, 0), None);
+        let once = told(1, 0).unwrap();
+        assert!(
+            once.contains("a singular position at t = 0.710000 s") && !once.contains("tolerance"),
+            "{once}"
+        );
+        let often = told(3, 2).unwrap();
+        assert!(
+            often.contains("3 singular positions, the first time at t = 0.710000 s"),
+            "{often}"
+        );
+        assert!(
+            often.contains("2 of them miss coupling.tolerance"),
+            "{often}"
+        );
+        let near = told(0, 1).unwrap();
+        assert!(near.contains("comes near a singular position"), "{near}");
     }
 
     #[test]

@@ -239,11 +239,21 @@ impl StepSize {
             Cause::Error { found, .. } => Some(found.scaled),
             Cause::NotConverged(_) | Cause::Failed => None,
         };
+        let StepControl {
+            least_step,
+            greatest_step,
+            ..
+        } = self.control;
+        let is_allowed = |length: &f64| (least_step..=greatest_step).contains(length);
         let again = singular.map_or(Again::Shorter, |near| {
+            let across = near.across.filter(is_allowed);
+            let near = SingularPosition { across, ..near };
             state.attempts.reject(step.length, error, near)
         });
-        if again == Again::Never || is_shortest && again == Again::Shorter {
-            return None;
+        match again {
+            Again::With(length) if is_allowed(&length) => {}
+            Again::Shorter if !is_shortest => {}
+            _ => return None,
         }
         let causes = &mut state.statistics.rejected_by_cause;
         let (count, share) = match cause {
