@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::body::{Body, CASES, Case, TIGHT, solver};
+use common::body::{Body, TIGHT, solver};
+use common::cases::{CASES, Case};
 use linchpin_proto::v1::MarkerKind;
 
 /// All models that take impulses, with each a solver.

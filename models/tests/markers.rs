@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::body::{Body, CASES, Case, TIGHT, difference};
+use common::body::{Body, TIGHT, difference};
+use common::cases::{CASES, Case};
 use linchpin_proto::v1::{Marker, MarkerKind};
 
 /// Time between two points of a difference: its error of fourth order is below what is asserted.

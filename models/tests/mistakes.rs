@@ -6,7 +6,8 @@ mod common;
 
 use std::collections::BTreeSet;
 
-use common::body::{Body, CASES, model};
+use common::body::{Body, model};
+use common::cases::CASES;
 use common::{EXACT, RADAU5, Solver, build, build_model};
 use linchpin_proto::v1::MarkerKind;
 
@@ -194,7 +195,7 @@ fn descriptions_name_only_what_they_have() {
 /// A state is what its parameter sets it to.
 #[test]
 fn states_start_at_their_parameters() {
-    let has_states = |case: &common::body::Case| !case.description().states.is_empty();
+    let has_states = |case: &common::cases::Case| !case.description().states.is_empty();
     for case in CASES.into_iter().filter(has_states) {
         let mut body = Body::of(case, RADAU5);
         for state in body.model.states.clone() {

@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::body::{Body, CASES, Case, TIGHT, difference};
+use common::body::{Body, TIGHT, difference};
+use common::cases::{CASES, Case};
 
 const LINK: Case = CASES[2];
 const M: f64 = 1.3;

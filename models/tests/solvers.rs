@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::body::{Body, CASES, Case, SHAKEN, model, solver};
+use common::body::{Body, model, solver};
+use common::cases::{CASES, Case, SHAKEN};
 use common::{Solver, build_values, interval, polynomial, snapshot};
 use linchpin_proto::v1;
 use linchpin_proto::v1::value::Kind;

@@ -4,7 +4,8 @@
 
 mod common;
 
-use common::body::{Body, CASES, Case, TIGHT, difference};
+use common::body::{Body, TIGHT, difference};
+use common::cases::{CASES, Case};
 use common::{Solver, agm};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use std::f64::consts::PI;

@@ -10,6 +10,7 @@ use linchpin_proto::v1;
 use linchpin_worker::{Inputs, Interval, Model, Setup, Snapshot, Subsystem, setup::SetupError};
 
 pub mod body;
+pub mod cases;
 pub mod mechanisms;
 pub mod motion;
 pub mod spatial;

@@ -3,7 +3,8 @@
 use linchpin_proto::v1;
 
 use crate::common::Solver;
-use crate::common::body::{CASES, Case, TIGHT};
+use crate::common::body::TIGHT;
+use crate::common::cases::{CASES, Case};
 use crate::joint::Space;
 
 /// A model with its markers.

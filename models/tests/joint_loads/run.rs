@@ -7,7 +7,7 @@ use linchpin_proto::v1;
 use linchpin_proto::version::PROTOCOL;
 use linchpin_worker::Host;
 
-use crate::common::body::Case;
+use crate::common::cases::Case;
 use crate::common::{Solver, number};
 
 /// A signal as a function of the time of the simulation.

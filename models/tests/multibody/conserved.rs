@@ -3,7 +3,8 @@
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 
 use crate::common::Solver;
-use crate::common::body::{Body, CASES, TIGHT, difference};
+use crate::common::body::{Body, TIGHT, difference};
+use crate::common::cases::CASES;
 use crate::common::mechanisms::Given::{List as L, Number as N, Text as T};
 use crate::common::mechanisms::{Given, SLIDER_CRANK, SPATIAL_LOOP, SPATIAL_TREE, with};
 use crate::{planar, spatial};

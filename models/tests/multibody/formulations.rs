@@ -1,6 +1,7 @@
 //! Absolute and minimal coordinates are two derivations of one motion.
 
-use crate::common::body::{Body, CASES, Case, TIGHT, difference};
+use crate::common::body::{Body, TIGHT, difference};
+use crate::common::cases::{CASES, Case};
 
 /// Largest difference of all outputs, reactions of the joints included, under loads at all markers.
 fn largest_difference(absolute: Case, minimal: Case) -> f64 {

@@ -7,7 +7,8 @@ use linchpin_models::reference::FreeOscillation;
 use nalgebra::{Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
 
 use crate::common::agm;
-use crate::common::body::{Body, CASES, TIGHT, difference};
+use crate::common::body::{Body, TIGHT, difference};
+use crate::common::cases::CASES;
 use crate::common::mechanisms::Given::{List as L, Number as N, Text as T};
 use crate::common::mechanisms::{Given, list};
 use crate::{FORMULATIONS, spatial};
