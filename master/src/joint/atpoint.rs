@@ -4,7 +4,7 @@ use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
 use super::condition::Condition;
-use super::motion::{Jet, MarkerChange, Motion};
+use super::motion::{Jet, MarkerGradient, Motion};
 
 /// One component of the atpoint joint (S1 eqs. 28 to 36), which is a ball joint in space and a hinge in the plane:
 ///
@@ -38,24 +38,21 @@ impl Condition for AtPoint {
         self.law.factors(motion)
     }
 
-    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
-        [
-            distance_change(&self.law.points, motion, end, change),
-            Jet::constant(Vector3::zeros()),
-        ]
+    fn factor_gradient(&self, motion: &Motion, end: End, [by, _]: [&Jet; 2]) -> MarkerGradient {
+        distance_gradient(&self.law.points, motion, end, by)
     }
 }
 
-/// Change of `p_a - p_b` under a small change of the motion at one end.
-pub(super) fn distance_change(
+/// Derivatives of `by` times `p_a - p_b` with respect to the motion at one end.
+pub(super) fn distance_gradient(
     points: &[Vector3<f64>; 2],
     motion: &Motion,
     end: End,
-    change: &MarkerChange,
-) -> Jet {
-    let moved = motion[end as usize].point_change(&points[end as usize], change);
-    match end {
-        End::A => moved,
-        End::B => -moved,
-    }
+    by: &Jet,
+) -> MarkerGradient {
+    let by = match end {
+        End::A => *by,
+        End::B => -*by,
+    };
+    motion[end as usize].point_gradient(&points[end as usize], &by)
 }

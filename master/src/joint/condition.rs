@@ -3,7 +3,7 @@
 use linchpin_proto::joint_load::{End, JointLaw, Law, Reads};
 
 use super::level::Level;
-use super::motion::{Jet, MarkerChange, Motion};
+use super::motion::{Jet, MarkerGradient, Motion};
 
 /// Residuals below this share of the terms that cancel in them ([`Condition::extent`]) are rounding.
 pub const ROUNDING: f64 = 1e-11;
@@ -34,8 +34,8 @@ pub trait Condition: Send + Sync {
     /// `u` and `w` with their time derivatives.
     fn factors(&self, motion: &Motion) -> [Jet; 2];
 
-    /// Change of [`Condition::factors`] under a small change of the motion at one end.
-    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2];
+    /// Derivatives of the sum of `by` times [`Condition::factors`], each vector times its own, with respect to the motion at one end.
+    fn factor_gradient(&self, motion: &Motion, end: End, by: [&Jet; 2]) -> MarkerGradient;
 
     /// `g`, `g'` or `g''`.
     fn value(&self, level: Level, motion: &Motion) -> f64 {
@@ -47,16 +47,15 @@ pub trait Condition: Send + Sync {
         product(highest, &self.factors(motion))
     }
 
-    /// Changes of [`Condition::values`] under a small change of the motion at one end; `factors` are those at this motion.
-    fn changes(
+    /// Derivatives of [`Condition::value`] with respect to the motion at one end; `factors` are those at this motion.
+    fn gradient(
         &self,
-        highest: Level,
+        level: Level,
         (motion, [u, w]): (&Motion, &[Jet; 2]),
         end: End,
-        change: &MarkerChange,
-    ) -> [f64; 3] {
-        let [du, dw] = self.factor_changes(motion, end, change);
-        highest.each_up_to(|level| du.dot(w, level) + u.dot(&dw, level))
+    ) -> MarkerGradient {
+        let by = [w.multipliers(level), u.multipliers(level)];
+        self.factor_gradient(motion, end, by.each_ref())
     }
 
     /// Size of the terms that cancel in [`Condition::value`] while the condition holds, for judging what is rounding:

@@ -3,9 +3,9 @@
 use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
-use super::atpoint::distance_change;
+use super::atpoint::distance_gradient;
 use super::condition::Condition;
-use super::motion::{Jet, MarkerChange, Motion};
+use super::motion::{Jet, MarkerGradient, Motion};
 
 /// The inplane joint (S1 eqs. 37 to 45); in the plane of a planar scene it keeps a point on a straight line:
 ///
@@ -39,14 +39,16 @@ impl Condition for InPlane {
         self.law.factors(motion)
     }
 
-    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
-        let turned = match end {
-            End::A => Jet::constant(Vector3::zeros()),
-            End::B => motion[1].carried_change(&self.normal, change),
-        };
-        [
-            distance_change(&self.law.points, motion, end, change),
-            turned,
-        ]
+    fn factor_gradient(
+        &self,
+        motion: &Motion,
+        end: End,
+        [by, turned_by]: [&Jet; 2],
+    ) -> MarkerGradient {
+        let of_distance = distance_gradient(&self.law.points, motion, end, by);
+        match end {
+            End::A => of_distance,
+            End::B => of_distance + motion[1].carried_gradient(&self.normal, turned_by),
+        }
     }
 }

@@ -22,7 +22,7 @@ pub use condition::{Condition, ROUNDING, product};
 pub use inplane::InPlane;
 pub use level::Level;
 pub use linchpin_proto::joint_load::End;
-pub use motion::{Jet, MarkerChange, MarkerMotion, Motion};
+pub use motion::{Jet, MarkerGradient, MarkerMotion, Motion};
 pub use perpendicular::Perpendicular;
 pub use rigid_link::RigidLink;
 pub use rows::Joint;

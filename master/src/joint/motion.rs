@@ -21,20 +21,21 @@ pub struct MarkerMotion {
     pub alpha: Vector3<f64>,
 }
 
-/// A small change of a [`MarkerMotion`].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MarkerChange {
-    /// Of the position.
+/// The derivatives of a number with respect to the motion of a marker: what it changes by under a small change is the sum of
+/// the products.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MarkerGradient {
+    /// By the position.
     pub position: Vector3<f64>,
-    /// Rotation vector of the change of orientation, in inertial axes.
+    /// By the rotation vector of the change of orientation, in inertial axes.
     pub rotation: Vector3<f64>,
-    /// Of the velocity.
+    /// By the velocity.
     pub velocity: Vector3<f64>,
-    /// Of the angular velocity.
+    /// By the angular velocity.
     pub omega: Vector3<f64>,
-    /// Of the acceleration.
+    /// By the acceleration.
     pub acceleration: Vector3<f64>,
-    /// Of the angular acceleration.
+    /// By the angular acceleration.
     pub alpha: Vector3<f64>,
 }
 
@@ -86,26 +87,65 @@ impl Marker for MarkerMotion {
 }
 
 impl MarkerMotion {
-    /// Change of [`Marker::carried`] under a small change of the motion.
-    pub fn carried_change(&self, s: &Vector3<f64>, change: &MarkerChange) -> Jet {
+    /// The derivatives of `by_0 . T s + by_1 . (T s)' + by_2 . (T s)''` with respect to the motion.
+    ///
+    /// With `c = T s`, a small rotation `theta` changes `c` by `theta x c`, `c' = omega x c` by `omega x (theta x c)`, and so on:
+    /// what multiplies a change of `c''` is carried on to `c'` and to `c`.
+    pub fn carried_gradient(
+        &self,
+        s: &Vector3<f64>,
+        Jet([by, by_rate, by_second]): &Jet,
+    ) -> MarkerGradient {
         let Jet([carried, rate, _]) = self.carried(s);
-        let moved = change.rotation.cross(&carried);
-        let moved_rate = change.omega.cross(&carried) + self.omega.cross(&moved);
-        let moved_second = change.alpha.cross(&carried)
-            + self.alpha.cross(&moved)
-            + change.omega.cross(&rate)
-            + self.omega.cross(&moved_rate);
-        Jet([moved, moved_rate, moved_second])
+        let on_rate = by_rate + by_second.cross(&self.omega);
+        let on_carried = by + by_second.cross(&self.alpha) + on_rate.cross(&self.omega);
+        MarkerGradient {
+            rotation: carried.cross(&on_carried),
+            omega: carried.cross(&on_rate) + rate.cross(by_second),
+            alpha: carried.cross(by_second),
+            ..MarkerGradient::default()
+        }
     }
 
-    /// Change of [`Marker::point`] under a small change of the motion.
-    pub fn point_change(&self, s: &Vector3<f64>, change: &MarkerChange) -> Jet {
-        let Jet([carried, rate, second]) = self.carried_change(s, change);
-        Jet([
-            change.position + carried,
-            change.velocity + rate,
-            change.acceleration + second,
-        ])
+    /// The same of the point `r + T s`.
+    pub fn point_gradient(&self, s: &Vector3<f64>, by: &Jet) -> MarkerGradient {
+        let Jet([position, velocity, acceleration]) = *by;
+        MarkerGradient {
+            position,
+            velocity,
+            acceleration,
+            ..self.carried_gradient(s, by)
+        }
+    }
+}
+
+impl Default for MarkerGradient {
+    /// Of a number that does not depend on the motion.
+    fn default() -> Self {
+        let zero = Vector3::zeros();
+        Self {
+            position: zero,
+            rotation: zero,
+            velocity: zero,
+            omega: zero,
+            acceleration: zero,
+            alpha: zero,
+        }
+    }
+}
+
+impl std::ops::Add for MarkerGradient {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            position: self.position + other.position,
+            rotation: self.rotation + other.rotation,
+            velocity: self.velocity + other.velocity,
+            omega: self.omega + other.omega,
+            acceleration: self.acceleration + other.acceleration,
+            alpha: self.alpha + other.alpha,
+        }
     }
 }
 
@@ -113,6 +153,17 @@ impl Jet {
     /// A vector that does not change in time.
     pub fn constant(vector: Vector3<f64>) -> Self {
         Self([vector, Vector3::zeros(), Vector3::zeros()])
+    }
+
+    /// What multiplies a vector and its derivatives in the scalar product with this one on a level ([`Jet::dot`]).
+    pub fn multipliers(&self, level: Level) -> Self {
+        let Self([w, w1, w2]) = *self;
+        let zero = Vector3::zeros();
+        Self(match level {
+            Level::Position => [w, zero, zero],
+            Level::Velocity => [w1, w, zero],
+            Level::Acceleration => [w2, 2.0 * w1, w],
+        })
     }
 
     /// The scalar product `u . w`, its rate `u' . w + u . w'`, or `u'' . w + 2 u' . w' + u . w''`.

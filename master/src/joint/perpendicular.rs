@@ -4,7 +4,7 @@ use linchpin_proto::joint_load::{End, JointLaw, Law};
 use nalgebra::Vector3;
 
 use super::condition::Condition;
-use super::motion::{Jet, MarkerChange, Motion};
+use super::motion::{Jet, MarkerGradient, Motion};
 
 /// The perpendicular joint (S1 eqs. 46 to 54); in a planar scene it fixes the angle between two bodies:
 ///
@@ -42,10 +42,8 @@ impl Condition for Perpendicular {
         self.law.factors(motion)
     }
 
-    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
-        let mut changes = [Jet::constant(Vector3::zeros()); 2];
+    fn factor_gradient(&self, motion: &Motion, end: End, by: [&Jet; 2]) -> MarkerGradient {
         let own = end as usize;
-        changes[own] = motion[own].carried_change(&self.axes[own], change);
-        changes
+        motion[own].carried_gradient(&self.axes[own], by[own])
     }
 }

@@ -4,7 +4,7 @@ use linchpin_proto::joint_load::{End, JointLaw, Marker};
 use nalgebra::Vector3;
 
 use super::condition::Condition;
-use super::motion::{Jet, MarkerChange, Motion};
+use super::motion::{Jet, MarkerGradient, Motion};
 
 /// The massless rigid link between two scalar markers (S1 eq. 1):
 ///
@@ -23,13 +23,12 @@ impl Condition for RigidLink {
         [b.point(&origin) - a.point(&origin), axis()]
     }
 
-    fn factor_changes(&self, motion: &Motion, end: End, change: &MarkerChange) -> [Jet; 2] {
-        let moved = motion[end as usize].point_change(&Vector3::zeros(), change);
-        let moved = match end {
-            End::A => -moved,
-            End::B => moved,
+    fn factor_gradient(&self, motion: &Motion, end: End, [by, _]: [&Jet; 2]) -> MarkerGradient {
+        let by = match end {
+            End::A => -*by,
+            End::B => *by,
         };
-        [moved, Jet::constant(Vector3::zeros())]
+        motion[end as usize].point_gradient(&Vector3::zeros(), &by)
     }
 }
 

@@ -97,14 +97,8 @@ impl Exchanged {
         }
     }
 
-    /// The change of [`Exchanged::read`] that goes with a change `column` of the outputs.
-    pub fn change(
-        &self,
-        outputs: &[f64],
-        attitudes: &[UnitQuaternion<f64>],
-        near: &[f64],
-        column: &[f64],
-    ) -> Vector3<f64> {
+    /// The change of [`Exchanged::read`], which is `shown`, that goes with a change `column` of the outputs.
+    pub fn change(&self, outputs: &[f64], shown: &Vector3<f64>, column: &[f64]) -> Vector3<f64> {
         match self.what {
             What::Output(place) => Vector3::new(column[place], 0.0, 0.0),
             What::Attitude { places, .. } => {
@@ -112,7 +106,7 @@ impl Exchanged {
                     places.map(|place| outputs[place]),
                     places.map(|place| column[place]),
                 );
-                vector_change(&self.read(outputs, attitudes, near), &theta)
+                vector_change(shown, &theta)
             }
         }
     }

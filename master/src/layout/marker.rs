@@ -4,8 +4,8 @@ use linchpin_proto::joint_load::{Pose, Reads};
 use linchpin_proto::v1::{self, MarkerKind};
 use nalgebra::Vector3;
 
-use crate::joint::{Level, MarkerChange, MarkerMotion};
-use crate::signal::attitude::small_rotation;
+use crate::joint::{Level, MarkerGradient, MarkerMotion};
+use crate::signal::attitude::quaternion_gradient;
 
 /// A marker that a joint holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,10 @@ pub struct BoundEnd {
     pub subsystem: usize,
     kind: MarkerKind,
     levels: Vec<Places>,
+    /// All places of the levels, one level after the other.
+    places: Vec<usize>,
+    /// How many of them the levels up to each one have.
+    counts: Vec<usize>,
 }
 
 /// A coordinate or part of an attitude, or a rate of them, among the coupling outputs of a subsystem.
@@ -44,7 +48,7 @@ impl BoundEnd {
         level: Level,
         mut place_of: impl FnMut(&str) -> usize,
     ) -> Result<Self, Level> {
-        let mut levels = Vec::new();
+        let (mut levels, mut places, mut counts) = (Vec::<Places>::new(), Vec::new(), Vec::new());
         for &level in level.up_to() {
             let names = outputs_of(marker, level);
             let parts = Parts::of(marker.kind(), level);
@@ -52,15 +56,20 @@ impl BoundEnd {
                 let names = names.get(places).ok_or(level)?;
                 Ok(names.iter().map(|name| place_of(name)).collect())
             };
-            levels.push(Places {
+            let own = Places {
                 position: find(if reads.position { parts.position } else { 0..0 })?,
                 rotation: find(if reads.rotation { parts.rotation } else { 0..0 })?,
-            });
+            };
+            places.extend(own.position.iter().chain(&own.rotation));
+            counts.push(places.len());
+            levels.push(own);
         }
         Ok(Self {
             subsystem,
             kind: marker.kind(),
             levels,
+            places,
+            counts,
         })
     }
 
@@ -73,6 +82,12 @@ impl BoundEnd {
     pub fn places(&self, level: Level) -> impl Iterator<Item = usize> {
         let levels = self.levels.get(level as usize).into_iter();
         levels.flat_map(|places| places.position.iter().chain(&places.rotation).copied())
+    }
+
+    /// Places of what is read on a level and on those below it.
+    pub fn places_up_to(&self, highest: Level) -> &[usize] {
+        let count = self.counts.get(highest as usize).or(self.counts.last());
+        &self.places[..count.copied().unwrap_or(0)]
     }
 
     /// Places of what is read on a level, and what of it is measured by the size of the mechanism.
@@ -144,39 +159,30 @@ impl BoundEnd {
         }
     }
 
-    /// The change of the motion that goes with a change `column` of the outputs.
-    pub fn change(&self, highest: Level, outputs: &[f64], column: &[f64]) -> MarkerChange {
-        let mut change = MarkerChange::default();
+    /// Writes the derivatives of a number with respect to the outputs at [`BoundEnd::places_up_to`] behind `into`, where those
+    /// with respect to the motion are `by`.
+    pub fn add_gradient(
+        &self,
+        highest: Level,
+        outputs: &[f64],
+        by: &MarkerGradient,
+        into: &mut Vec<f64>,
+    ) {
         for (level, places) in highest.up_to().iter().zip(&self.levels) {
-            let position = vector(&places.position, column);
-            match level {
-                Level::Position => {
-                    change.position = position;
-                    change.rotation = self.rotation(&places.rotation, outputs, column);
+            let (by_position, by_rotation) = match level {
+                Level::Position => (&by.position, &by.rotation),
+                Level::Velocity => (&by.velocity, &by.omega),
+                Level::Acceleration => (&by.acceleration, &by.alpha),
+            };
+            into.extend(by_position.iter().take(places.position.len()));
+            match places.rotation[..] {
+                [_] => into.push(by_rotation.z),
+                [w, x, y, z] => {
+                    let q = [w, x, y, z].map(|place| outputs[place]);
+                    into.extend(quaternion_gradient(q, by_rotation));
                 }
-                Level::Velocity => {
-                    change.velocity = position;
-                    change.omega = self.turning(&places.rotation, column);
-                }
-                Level::Acceleration => {
-                    change.acceleration = position;
-                    change.alpha = self.turning(&places.rotation, column);
-                }
+                _ => into.extend(by_rotation.iter().take(places.rotation.len())),
             }
-        }
-        change
-    }
-
-    fn rotation(&self, places: &[usize], outputs: &[f64], column: &[f64]) -> Vector3<f64> {
-        match *places {
-            [w, x, y, z] => {
-                let parts = [w, x, y, z];
-                small_rotation(
-                    parts.map(|place| outputs[place]),
-                    parts.map(|place| column[place]),
-                )
-            }
-            _ => self.turning(places, column),
         }
     }
 }

@@ -42,6 +42,17 @@ pub fn small_rotation(q: [f64; 4], change: [f64; 4]) -> Vector3<f64> {
     2.0 / length * (change * attitude.quaternion().conjugate()).imag()
 }
 
+/// The derivatives of a number with respect to the quaternion `q = (w, x, y, z)`, where `by` are those with respect to its
+/// [`small_rotation`].
+pub fn quaternion_gradient(q: [f64; 4], by: &Vector3<f64>) -> [f64; 4] {
+    let length = q.iter().map(|part| part * part).sum::<f64>().sqrt();
+    let factor = 2.0 / (length * length);
+    let [w, x, y, z] = q;
+    let vector = Vector3::new(x, y, z);
+    let by_vector = w * by + by.cross(&vector);
+    [-by.dot(&vector), by_vector.x, by_vector.y, by_vector.z].map(|part| factor * part)
+}
+
 /// Change of `phi` under a small further rotation `theta` (inertial axes):
 /// `theta - phi x theta / 2 + c phi x (phi x theta)` with `c = (1 - (p/2) cot(p/2)) / p^2`, `p = |phi|`.
 pub fn vector_change(phi: &Vector3<f64>, theta: &Vector3<f64>) -> Vector3<f64> {
@@ -177,6 +188,18 @@ mod tests {
             let difference = (at(step) - at(-step)) / (2.0 * step);
             let rate = vector_change_rate(&phi, &theta, &d);
             prop_assert!((difference - rate).norm() < 1e-7, "{difference} {rate}");
+        }
+
+        #[test]
+        fn gradients_by_quaternions_are_those_by_their_rotations(
+            by in vector(),
+            q in proptest::array::uniform4(0.1f64..1.0),
+            change in proptest::array::uniform4(-1.0f64..1.0),
+        ) {
+            let gradient = quaternion_gradient(q, &by);
+            let own: f64 = gradient.iter().zip(&change).map(|(by, change)| by * change).sum();
+            let expected = by.dot(&small_rotation(q, change));
+            prop_assert!((own - expected).abs() < 1e-12 * (1.0 + 100.0 * by.norm()), "{own} {expected}");
         }
 
         #[test]

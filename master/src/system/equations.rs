@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::column::Column;
+use super::end_gradients::EndGradients;
 use super::entries::visit_entries;
 use super::pattern::Pattern;
 use super::point::Point;
@@ -33,6 +34,7 @@ pub struct System {
     pub(super) motions: Vec<Motion>,
     /// Factors of the conditions of the joints.
     pub(super) factors: Vec<[Jet; 2]>,
+    pub(super) end_gradients: EndGradients,
     pub(super) gradients: Vec<f64>,
     pub(super) gradient_starts: Vec<usize>,
     pub(super) moments: Option<Box<Moments>>,
@@ -103,6 +105,7 @@ impl System {
             rhs: vec![0.0; size],
             motions: Vec::with_capacity(layout.joints.len()),
             factors: Vec::with_capacity(layout.rows.len()),
+            end_gradients: EndGradients::default(),
             gradients: Vec::new(),
             gradient_starts: Vec::new(),
             pattern,

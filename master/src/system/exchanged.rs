@@ -2,7 +2,6 @@
 
 use nalgebra::Vector3;
 
-use super::point::Point;
 use super::unknowns::Unknowns;
 use crate::joint::Level;
 use crate::layout::Exchanged;
@@ -19,23 +18,22 @@ impl Exchanged {
 
     /// The changes of the variables, `H` times their rates and `H^2` times their second derivatives that go with a change
     /// `column` of the outputs; where rates are no unknowns, or on position level alone, the change of the variables on every level.
+    /// `shown` is what the outputs say about the variables.
     pub(super) fn changes(
         &self,
         (unknowns, level): (&Unknowns, Level),
-        outputs: &[f64],
-        point: Point<'_>,
+        (outputs, shown): (&[f64], &Vector3<f64>),
+        step: f64,
         column: &[f64],
     ) -> [Vector3<f64>; 3] {
-        let change = self.change(outputs, point.attitudes, point.w, column);
+        let change = self.change(outputs, shown, column);
         let Some(rates) = self
             .rates_among(unknowns)
             .filter(|_| level > Level::Position)
         else {
             return [change; 3];
         };
-        let step = point.step;
-        let shown = self.read(outputs, point.attitudes, point.w);
-        let phi = self.vector(&shown);
+        let phi = self.vector(shown);
         let turned =
             vector_change_rate(&phi, &vector(&rates.speed, outputs), &self.vector(&change));
         let speed = rates.speed(column, &phi) + turned;

@@ -54,27 +54,32 @@ impl System {
         columns: &[Column],
     ) -> usize {
         let (mut slot, mut first_row) = (0, 0);
+        let mut gradients = std::mem::take(&mut self.end_gradients);
         for (number, joint) in layout.joints.iter().enumerate() {
+            let rows = first_row..first_row + joint.joint.len();
             for end in End::BOTH {
                 let bound = &joint.ends[end as usize];
-                let own = outputs(bound.subsystem);
+                let factors = &self.factors[rows.clone()];
+                let at = (&*joint.joint, &self.motions[number], factors);
+                gradients.differentiate(self.level, at, (end, bound), outputs(bound.subsystem));
                 for input in layout.input_range(bound.subsystem) {
                     for (raised, column) in self.unknowns.columns(input).enumerate() {
                         if columns[column].derivatives.is_empty() {
                             continue;
                         }
-                        let change = bound.change(self.level, own, &columns[column].derivatives);
+                        let derivatives = &columns[column].derivatives;
                         let raised = Raised::new(layout, input, raised, column);
-                        for (row, condition) in (first_row..).zip(joint.joint.conditions()) {
-                            let at = (&self.motions[number], &self.factors[row]);
-                            let responses = condition.changes(self.level, at, end, &change);
+                        for condition in 0..joint.joint.len() {
+                            let responses =
+                                gradients.responses(condition, self.level, bound, derivatives);
                             slot = self.spread(raised, responses, slot);
                         }
                     }
                 }
             }
-            first_row += joint.joint.len();
+            first_row = rows.end;
         }
+        self.end_gradients = gradients;
         slot
     }
 
@@ -88,6 +93,7 @@ impl System {
     ) {
         for exchanged in &layout.exchanged {
             let own = outputs(exchanged.subsystem);
+            let shown = exchanged.read(own, point.attitudes, point.w);
             for variable in exchanged.first..exchanged.first + exchanged.size() {
                 for unknown in self.unknowns.of(variable) {
                     self.add(slot, self.units[unknown]);
@@ -100,8 +106,9 @@ impl System {
                     if derivatives.is_empty() {
                         continue;
                     }
+                    let unknowns = (&self.unknowns, self.level);
                     let changes =
-                        exchanged.changes((&self.unknowns, self.level), own, point, derivatives);
+                        exchanged.changes(unknowns, (own, &shown), point.step, derivatives);
                     let raised = Raised::new(layout, input, raised, column);
                     for component in 0..exchanged.size() {
                         let responses = changes.map(|change| -change[component]);

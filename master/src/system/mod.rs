@@ -1,6 +1,6 @@
 //! The coupling conditions `g` of the whole scene and their Jacobian `G`.
 //!
-//! * `equations`: both on every level, assembled from the joints (`residuals`, `jacobians`), the exchanged variables (`exchanged`)
+//! * `equations`: both on every level, assembled from the joints (`residuals`, `jacobians`, `end_gradients`), the exchanged variables (`exchanged`)
 //!   and the workers' columns (`column`), about a point (`point`);
 //! * `moments`: the conditions inside a step, weighted;
 //! * [`unknowns`]: what is solved for of every coupling variable;
@@ -11,6 +11,7 @@
 
 mod answers;
 mod column;
+mod end_gradients;
 mod entries;
 mod equations;
 mod exchanged;

@@ -86,8 +86,9 @@ fn busy() -> f64 {
     nanoseconds * 1e-9
 }
 
-fn measure(links: usize, place: Place) -> Cost {
-    let mut running = Running::start(links, place, &["scene.t_end=1e3"]);
+/// What a macro step of so many links takes with these settings beside columns in every step.
+pub fn measure(links: usize, place: Place, settings: &[&str]) -> Cost {
+    let mut running = Running::start(links, place, &[&["scene.t_end=1e3"], settings].concat());
     running.steps(WARM_UP);
     let blocks = (0..BLOCKS).map(|_| running.block(512 / links));
     let least = |one: Cost, other: Cost| Cost {
@@ -103,7 +104,7 @@ fn measure(links: usize, place: Place) -> Cost {
 /// Shows and returns the costs of all lengths, with the workers in this process and in processes of their own.
 pub fn show() -> [Vec<Cost>; 2] {
     let costs = [Place::InProcess, Place::Processes]
-        .map(|place| LINKS.map(|links| measure(links, place)).to_vec());
+        .map(|place| LINKS.map(|links| measure(links, place, &[])).to_vec());
     let mut table = String::from(
         "| links | exchanges per worker | in process: assemble and solve | master | whole \
          | processes: assemble and solve | master | whole |\n|---|---|---|---|---|---|---|---|\n",

@@ -3,10 +3,11 @@
 //! * one solution of the coupling system, dense and sparse, for chains, rings, trees and stars of bodies: from here comes
 //!   where [`LinearSolver`](linchpin_master::system::solve::LinearSolver) changes from one to the other;
 //! * the macro step with the workers in this process and as n processes over Unix sockets;
+//! * what the master adds to the solvers' time in this process, with Hermite coupling and with the weighted method;
 //! * the memory of the master after a thousand and after ten thousand macro steps.
 //!
 //! `cargo bench -p linchpin-tests --bench chain` prints the tables of `docs/evidence/cost.md` and draws its picture to
-//! `target/chain-cost.svg`; `-- solver`, `-- steps` and `-- memory` do one part, and with `--write` the tables go into the page. Every
+//! `target/chain-cost.svg`; `-- solver`, `-- steps`, `-- methods` and `-- memory` do one part, and with `--write` the tables go into the page. Every
 //! time is the least of sixty short blocks, so that other work of the machine counts little.
 
 // A bench stops at the first thing that is not as it should be.
@@ -14,6 +15,7 @@
 
 mod macro_steps;
 mod memory;
+mod methods;
 mod picture;
 mod solver;
 
@@ -44,6 +46,9 @@ fn main() {
         .filter(|argument| !argument.starts_with("--"))
         .collect();
     let is_wanted = |part| parts.is_empty() || parts.iter().any(|wanted| *wanted == part);
+    if is_wanted("methods") {
+        methods::show();
+    }
     if is_wanted("memory") {
         memory::show();
     }
