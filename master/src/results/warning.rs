@@ -97,6 +97,13 @@ impl Statistics {
     }
 }
 
+impl Warning {
+    /// Whether it speaks against the results; redundant joints leave the motion as it is.
+    pub fn is_against_results(&self) -> bool {
+        !matches!(self, Self::Redundant(_))
+    }
+}
+
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -148,23 +155,38 @@ impl fmt::Display for Warning {
             ),
             Self::ErrorOfStep { error, of, t } => write!(
                 f,
-                "the macro step at t = {t:.6} s is estimated to be off by {:.2e} % of the motion ({of}); choose a shorter \
+                "the macro step at t = {t:.6} s is estimated to be off by {} of the motion ({of}); choose a shorter \
                  coupling.macro_step or a coupling.tolerance",
-                100.0 * error
+                Percent(*error)
             ),
             Self::Unresolved { error, subsystem } => write!(
                 f,
                 "the macro steps do not resolve the springs and dampers of {subsystem} (aliasing), and a step is estimated to be off \
-                 by {:.2e} % of the motion or more; choose a shorter coupling.macro_step or a coupling.tolerance",
-                100.0 * error
+                 by {} of the motion or more; choose a shorter coupling.macro_step or a coupling.tolerance",
+                Percent(*error)
             ),
             Self::ErrorOfRun { error } => write!(
                 f,
-                "the errors of all macro steps are estimated as {:.2e} % of the motion together; choose a shorter \
+                "the errors of all macro steps are estimated as {} of the motion together; choose a shorter \
                  coupling.macro_step or a smaller coupling.tolerance",
-                100.0 * error
+                Percent(*error)
             ),
         }
+    }
+}
+
+/// A share in percent, with three digits.
+struct Percent(f64);
+
+impl fmt::Display for Percent {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let percent = 100.0 * self.0;
+        if !(1e-2..1e4).contains(&percent) {
+            return write!(f, "{percent:.2e} %");
+        }
+        // How many digits stand before the point.
+        let whole = percent.log10().floor() as i32 + 1;
+        write!(f, "{percent:.*} %", usize::try_from(3 - whole).unwrap_or(0))
     }
 }
 
@@ -242,10 +264,10 @@ mod tests {
         assert!(poor.contains("11 of 1000"), "{poor}");
         assert!(
             of_step.contains("t = 0.250000 s")
-                && of_step.contains("2.00e0 %")
+                && of_step.contains("2.00 %")
                 && of_step.contains("a.x"),
             "{of_step}"
         );
-        assert!(of_run.contains("3.00e1 %"), "{of_run}");
+        assert!(of_run.contains("30.0 %"), "{of_run}");
     }
 }

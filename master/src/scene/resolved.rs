@@ -171,6 +171,8 @@ pub struct RunSettings {
     pub checkpoint_every: f64,
     /// Macro steps between two checkpoints in place of a time.
     pub checkpoint_steps: Option<usize>,
+    /// Share of the macro steps that may be poor.
+    pub most_poor: f64,
 }
 
 /// By what right the master calls workers on other machines.

@@ -4,7 +4,7 @@ use super::resolved::RunSettings;
 use crate::reading::key::{FINITE, Key, Range, Takes};
 use crate::reading::reader::{Field, Problems, given};
 
-pub(super) const KEYS: [Key; 6] = [
+pub(super) const KEYS: [Key; 7] = [
     Key::new("deadline", Takes::Number(TIME_LIMIT))
         .default_number(DEADLINE)
         .means("longest time for one answer of a worker, s"),
@@ -31,6 +31,12 @@ pub(super) const KEYS: [Key; 6] = [
     Key::new("checkpoint_steps", Takes::Whole(1, usize::MAX))
         .default("none")
         .means("macro steps between two checkpoints, whatever time that takes, in place of `checkpoint_every`"),
+    Key::new("most_poor", Takes::Number(SHARE))
+        .default_number(MOST_POOR)
+        .means(
+            "share of the macro steps that may be poor: `linchpin run` ends with exit code 1 where it is more, behind its \
+             results; 1: never",
+        ),
 ];
 const DEADLINE: f64 = 30.0;
 const START_TIMEOUT: f64 = 10.0;
@@ -39,6 +45,14 @@ const MOST_RECOVERIES: usize = 1000;
 /// An export is a call of its own, which takes as long as some macro steps of the smallest scenes: so it costs a percent of them.
 const EXPORT_EVERY: usize = 1000;
 const CHECKPOINT_EVERY: f64 = 30.0;
+/// Where most steps miss their aim the results are those of another mechanism.
+const MOST_POOR: f64 = 0.5;
+const SHARE: Range = Range {
+    words: "from 0 to 1",
+    least: 0.0,
+    most: 1.0,
+    ..FINITE
+};
 /// Longer than any sensible wait, and short enough for every clock.
 const TIME_LIMIT: Range = Range {
     words: "greater than 0 s and at most 1e6 s",
@@ -62,6 +76,7 @@ impl std::default::Default for RunSettings {
             export_every: EXPORT_EVERY,
             checkpoint_every: CHECKPOINT_EVERY,
             checkpoint_steps: None,
+            most_poor: MOST_POOR,
         }
     }
 }
@@ -74,17 +89,19 @@ pub(super) fn read(field: Option<Field<'_>>, problems: &mut Problems<'_>) -> Opt
         export_every,
         checkpoint_every,
         checkpoint_steps,
+        most_poor,
     ] = match field {
         Some(field) => field.section(problems)?.read(&KEYS, problems),
-        None => [const { None }; 6],
+        None => [const { None }; 7],
     };
-    let mut seconds = |field: Option<Field<'_>>, default| {
+    let mut number = |field: Option<Field<'_>>, default| {
         field.map_or(Some(default), |field| field.number(problems))
     };
     let default = RunSettings::default();
-    let deadline = seconds(deadline, default.deadline);
-    let start_timeout = seconds(start_timeout, default.start_timeout);
-    let checkpoint_every = seconds(checkpoint_every, default.checkpoint_every);
+    let deadline = number(deadline, default.deadline);
+    let start_timeout = number(start_timeout, default.start_timeout);
+    let checkpoint_every = number(checkpoint_every, default.checkpoint_every);
+    let most_poor = number(most_poor, default.most_poor);
     let mut whole = |field: Option<Field<'_>>, default| {
         field.map_or(Some(default), |field| field.whole(problems))
     };
@@ -98,5 +115,6 @@ pub(super) fn read(field: Option<Field<'_>>, problems: &mut Problems<'_>) -> Opt
         export_every: export_every?,
         checkpoint_every: checkpoint_every?,
         checkpoint_steps: checkpoint_steps?,
+        most_poor: most_poor?,
     })
 }

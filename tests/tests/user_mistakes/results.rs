@@ -306,3 +306,60 @@ fn the_report_holds_the_scene_that_was_run() {
     let report: serde_json::Value = serde_json::from_str(&workshop.read("out/run.json")).unwrap();
     assert_eq!(report["scene_text"], text);
 }
+
+/// Steps of 0.1 s are too long for the weighted method: one of twenty is poor, and the errors are told.
+const TOO_LONG: [&str; 6] = [
+    "--set",
+    "coupling.method=weighted",
+    "--set",
+    "coupling.macro_step=0.1",
+    "--set",
+    "scene.t_end=2",
+];
+
+fn double_pendulum() -> Workshop {
+    let workshop = Workshop::new();
+    let text = std::fs::read_to_string("../scenes/double-pendulum.toml").unwrap();
+    workshop.write("scene.toml", text);
+    workshop
+}
+
+#[test]
+fn more_poor_steps_than_a_scene_allows_are_a_failure_behind_results() {
+    let workshop = double_pendulum();
+    let allowed = workshop.run(&run(&TOO_LONG));
+    allowed.succeeds().says(&["1 of 20 macro steps are poor"]);
+    let refused = workshop.run(&run(
+        &[&TOO_LONG[..], &["--set", "run.most_poor=0.04"]].concat()
+    ));
+    refused.fails(
+        1,
+        &[
+            "1 of 20",
+            "0.050",
+            "run.most_poor allows 0.04",
+            "macro_step",
+        ],
+    );
+    let report = report(&workshop, "out");
+    assert_eq!(report["status"], "failed");
+    assert_eq!(report["statistics"]["verdicts"]["poor"], 1);
+    assert_eq!(rows(&workshop).len(), 21);
+    for share in ["-0.1", "1.5"] {
+        let setting = format!("run.most_poor={share}");
+        let outcome = workshop.run(&run(&["--set", &setting]));
+        outcome.fails(2, &["most_poor", "from 0 to 1"]);
+    }
+}
+
+#[test]
+fn strict_runs_take_no_warning_against_their_results() {
+    let workshop = double_pendulum();
+    let strict = |more: &[&str]| workshop.run(&run(&[&["--strict"], more].concat()));
+    strict(&TOO_LONG).fails(
+        1,
+        &["1 of 20 macro steps are poor", "--strict", "3 warnings"],
+    );
+    assert_eq!(rows(&workshop).len(), 21);
+    strict(&["--set", "scene.t_end=0.2"]).succeeds();
+}

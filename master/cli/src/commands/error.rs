@@ -303,6 +303,29 @@ pub enum CommandError {
         /// The system's reason.
         source: std::io::Error,
     },
+    /// Too many macro steps of a run that came to its end are poor.
+    #[error(
+        "{steps} of {of} macro steps are poor, a share of {:.3}; run.most_poor allows {most}. Results are there, but their corrections \
+         missed their aim\n  help: a smaller macro_step or a tolerance; see docs/guide/when-it-goes-wrong.md",
+        *steps as f64 / *of as f64
+    )]
+    Poor {
+        /// So many.
+        steps: u64,
+        /// Of so many.
+        of: u64,
+        /// The greatest share of them.
+        most: f64,
+    },
+    /// Something speaks against the results of a run that must be beyond doubt.
+    #[error(
+        "--strict: {count} {} against the results, which are there",
+        if *count == 1 { "warning speaks" } else { "warnings speak" }
+    )]
+    Strict {
+        /// How many.
+        count: usize,
+    },
     /// A worker cannot listen.
     #[error(transparent)]
     Listen(#[from] ListenError),

@@ -54,6 +54,10 @@ pub struct Arguments {
     #[arg(long)]
     resume: bool,
 
+    /// Exit code 1 if a warning speaks against the results, as for a run that fails
+    #[arg(long)]
+    strict: bool,
+
     /// No plots
     #[arg(long)]
     no_plots: bool,
@@ -253,7 +257,8 @@ impl Job<'_> {
         }
         let outcome = outcome.and_then(|()| {
             remove_checkpoints(folder.path()).map_err(CommandError::unwritable(folder.path()))?;
-            self.tell(scene, case, &report, &page)
+            self.tell(scene, case, &report, &page)?;
+            self.judge(scene, &report)
         });
         // Results of an earlier run keep what was said of them.
         if has_begun || is_first {
@@ -307,6 +312,25 @@ impl Job<'_> {
             return Ok(());
         }
         print(format_args!("{}\n", report.summary(scene, case)))
+    }
+
+    /// Whether what came to its end counts as done.
+    fn judge(&self, scene: &Scene, report: &RunReport) -> Result<(), CommandError> {
+        let warnings = report.warnings();
+        let count = { warnings.iter() }
+            .filter(|warning| warning.is_against_results())
+            .count();
+        let most = scene.run.most_poor;
+        if let Some(statistics) = &report.statistics {
+            let (steps, of) = (statistics.verdicts.poor, statistics.macro_steps);
+            if steps as f64 > most * of as f64 {
+                return Err(CommandError::Poor { steps, of, most });
+            }
+        }
+        match self.arguments.strict && count > 0 {
+            true => Err(CommandError::Strict { count }),
+            false => Ok(()),
+        }
     }
 
     /// The picture of the runs that have recorded something.

@@ -60,6 +60,7 @@ fn the_example_resolves_to_what_it_says() {
         export_every: 1000,
         checkpoint_every: 30.0,
         checkpoint_steps: None,
+        most_poor: 0.5,
     };
     assert_eq!(scene.run, run);
     assert_eq!((scene.converge, scene.stability), (None, None));
@@ -277,7 +278,7 @@ fn joints_outputs_and_run_settings_are_optional_in_detail() {
         (
             "every = 1 ",
             "every = 7\nvariables = [\"mass1.v\", \"mass2.energy\"]\n[run]\nrecoveries = 0\nexport_every = 7\n\
-             checkpoint_every = 0\ncheckpoint_steps = 40\ndeadline = 2 ",
+             checkpoint_every = 0\ncheckpoint_steps = 40\nmost_poor = 0.25\ndeadline = 2 ",
         ),
     ]);
     let a = Side {
@@ -296,6 +297,7 @@ fn joints_outputs_and_run_settings_are_optional_in_detail() {
         export_every: 7,
         checkpoint_every: 0.0,
         checkpoint_steps: Some(40),
+        most_poor: 0.25,
         ..RunSettings::default()
     };
     assert_eq!(scene.run, run);
