@@ -99,7 +99,10 @@ impl Host {
         let Some(slot) = slot else {
             return Err(CallError::no_instance(number));
         };
-        Ok(without_panic(|| slot.call(call))?)
+        without_panic(|| slot.call(call)).map_err(|failure| match slot.has_ended() {
+            true => CallError::no_instance(number),
+            false => failure.into(),
+        })
     }
 
     fn build(&self, request: &v1::InitializeRequest) -> Result<Instance, Failure> {
@@ -265,7 +268,9 @@ impl Contract for Host {
     }
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
-        self.change_table().remove(&request.instance);
+        if let Some(slot) = self.change_table().remove(&request.instance) {
+            slot.end();
+        }
         Ok(v1::TerminateReply::default().to(request))
     }
 

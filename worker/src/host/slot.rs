@@ -7,6 +7,7 @@ use linchpin_proto::contract::{CallError, Hold, Owner};
 use linchpin_proto::v1::{self, Failure};
 use linchpin_proto::version::knows_leases;
 
+use crate::cancel::{By, Cancel, Flag};
 use crate::instance::Instance;
 
 /// An instance with what decides about its end.
@@ -19,6 +20,8 @@ pub(super) struct Slot {
     lease: Option<Duration>,
     /// What holds it or has held it last; empty if it is called without a server.
     holds: Mutex<Vec<Hold>>,
+    /// Raised at its end, which cancels its calls.
+    ended: Flag,
     occupant: Mutex<Occupant>,
 }
 
@@ -42,6 +45,7 @@ impl Slot {
             began: now,
             lease: knows_leases(request.protocol.as_ref()).then_some(lease),
             holds: Mutex::default(),
+            ended: Flag::default(),
             occupant: Mutex::new(Occupant {
                 instance,
                 used: now,
@@ -71,9 +75,20 @@ impl Slot {
                 "the solver of this instance panicked in an earlier call; Terminate it and make another",
             )
         })?;
-        let answer = call(&mut occupant.instance);
+        let instance = &mut occupant.instance;
+        let answer = Cancel::within(By::Instance, &self.ended, || call(instance));
         occupant.used = Instant::now();
         answer
+    }
+
+    /// Cancels the call under way and those that wait for it: the instance is no longer there.
+    pub fn end(&self) {
+        self.ended.raise();
+    }
+
+    /// Whether [`Slot::end`] was called.
+    pub fn has_ended(&self) -> bool {
+        self.ended.is_raised()
     }
 
     /// The answer to an Initialize that is repeated.

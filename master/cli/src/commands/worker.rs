@@ -11,7 +11,7 @@ use linchpin_proto::certificates::Certificates;
 use linchpin_proto::token::Token;
 use linchpin_worker::Model;
 use linchpin_worker::host::{Host, Limits};
-use linchpin_worker::server::{Address, Reach, Server};
+use linchpin_worker::server::{self, Address, Capacity, Reach, Server};
 use tokio::sync::oneshot;
 
 use super::CommandError;
@@ -45,7 +45,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     token: Option<PathBuf>,
 
-    /// Threads; with more than one, health is answered during long steps, and instances compute at the same time
+    /// Threads that compute: so many instances at the same time. Others answer what needs no solver, such as health, also during long steps
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: u16,
 
@@ -71,17 +71,11 @@ fn lease(text: &str) -> Result<f64, String> {
 
 /// Serves until SIGTERM, Ctrl-C or, if asked, the end of the standard input.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let runtime = match arguments.threads {
-        // One thread wakes up faster than two that share the work.
-        1 => tokio::runtime::Builder::new_current_thread()
-            .enable_all()
-            .build()?,
-        threads => tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(threads.into())
-            .enable_all()
-            .build()?,
-    };
-    runtime.block_on(serve(arguments))
+    let runtime = server::runtime(arguments.threads.into())?;
+    let served = runtime.block_on(serve(arguments));
+    // A solver that does not look whether it is cancelled ends with the process.
+    runtime.shutdown_background();
+    served
 }
 
 async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
@@ -101,7 +95,12 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         None => Reach::Local,
     };
     let token = arguments.token.as_deref().map(Token::read).transpose()?;
-    let mut server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    let capacity = Capacity {
+        threads: arguments.threads.into(),
+        ..Capacity::default()
+    };
+    let server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    let mut server = server.with_capacity(capacity);
     if let Some(token) = token {
         server = server.demanding(token);
     }

@@ -1,0 +1,160 @@
+//! Where solvers compute: so many calls at a time, and beside whatever the server has to answer meanwhile.
+//!
+//! A call computes on the thread of the server that its request has arrived on, since to hand it to another one would take longer than
+//! many a step. A [`Sentry`] looks after those that take long and lets another thread go on with the rest.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use tokio::runtime::{Handle, RuntimeFlavor};
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
+use tonic::Status;
+
+use super::sentry::Sentry;
+use crate::cancel::{By, Cancel, Flag};
+
+/// Threads of a server beside those that compute: one for what comes in and goes out, one for descriptions.
+pub(super) const OTHER_THREADS: usize = 2;
+
+/// The places where calls compute.
+pub(super) struct Solvers {
+    steps: Lane,
+    descriptions: Lane,
+    route: Route,
+    /// Raised when the worker shuts down.
+    ends: Flag,
+}
+
+/// Which thread a call computes on.
+enum Route {
+    /// The one that it is on.
+    Here(Sentry),
+    /// One that the runtime keeps for such: what a runtime with fewer threads than [`runtime`](super::runtime) makes must do.
+    Elsewhere,
+}
+
+/// Calls that compute, and those that wait.
+struct Lane {
+    places: Arc<Semaphore>,
+    of: usize,
+    waiting: AtomicUsize,
+    most_waiting: usize,
+}
+
+/// The right to compute.
+pub(super) type Place = OwnedSemaphorePermit;
+
+impl Solvers {
+    /// With `threads` calls at a time and `most_waiting` that wait, on the runtime that this is called on.
+    pub fn new(threads: usize, most_waiting: usize) -> std::io::Result<Self> {
+        let runtime = Handle::current();
+        let is_large = runtime.runtime_flavor() == RuntimeFlavor::MultiThread
+            && runtime.metrics().num_workers() >= threads + OTHER_THREADS;
+        let ends = Flag::default();
+        Ok(Self {
+            steps: Lane::new(threads, most_waiting),
+            descriptions: Lane::new(1, most_waiting),
+            route: match is_large {
+                true => Route::Here(Sentry::start(runtime)?),
+                false => Route::Elsewhere,
+            },
+            ends,
+        })
+    }
+
+    /// Waits for a place to step.
+    ///
+    /// # Errors
+    /// The status that refuses a call when too many wait.
+    pub async fn place(&self) -> Result<Place, Status> {
+        self.steps.place().await
+    }
+
+    /// Waits for the place where descriptions are made: one, so that nobody can flood the worker with them, and none of those for
+    /// steps, which may be taken for long.
+    ///
+    /// # Errors
+    /// As [`Solvers::place`].
+    pub async fn place_to_describe(&self) -> Result<Place, Status> {
+        self.descriptions.place().await
+    }
+
+    /// Computes at a place, until `caller` is raised or the worker shuts down. To be awaited in a task of its own, which has nothing
+    /// else to do.
+    ///
+    /// # Errors
+    /// The status of a call that failed because the worker shuts down, or without a word.
+    pub async fn compute<A: Send + 'static>(
+        &self,
+        place: Place,
+        caller: &Flag,
+        call: impl FnOnce() -> Result<A, Status> + Send + 'static,
+    ) -> Result<A, Status> {
+        let (ends, caller) = (self.ends.clone(), caller.clone());
+        let cancellable =
+            move || Cancel::within(By::Worker, &ends, || Cancel::within(By::Caller, &caller, call));
+        let answer = match &self.route {
+            Route::Here(sentry) => sentry.look_after(cancellable),
+            Route::Elsewhere => tokio::task::spawn_blocking(cancellable)
+                .await
+                .unwrap_or_else(|error| Err(Status::internal(error.to_string()))),
+        };
+        drop(place);
+        match answer {
+            // For its master that is a worker that is lost, not a solver that has failed.
+            Err(_) if self.ends.is_raised() => Err(Status::unavailable("the worker shuts down")),
+            answer => answer,
+        }
+    }
+
+    /// Cancels all calls.
+    pub fn end(&self) {
+        self.ends.raise();
+    }
+
+    /// Whether a call computes.
+    pub fn are_busy(&self) -> bool {
+        self.steps.is_busy() || self.descriptions.is_busy()
+    }
+}
+
+impl Lane {
+    fn new(places: usize, most_waiting: usize) -> Self {
+        Self {
+            places: Arc::new(Semaphore::new(places)),
+            of: places,
+            waiting: AtomicUsize::new(0),
+            most_waiting,
+        }
+    }
+
+    fn is_busy(&self) -> bool {
+        self.places.available_permits() < self.of
+    }
+
+    async fn place(&self) -> Result<Place, Status> {
+        let places = Arc::clone(&self.places);
+        if let Ok(place) = Arc::clone(&places).try_acquire_owned() {
+            return Ok(place);
+        }
+        let before = self.waiting.fetch_add(1, Ordering::Relaxed);
+        let _waits = Waits(&self.waiting);
+        if before >= self.most_waiting {
+            return Err(Status::resource_exhausted(format!(
+                "this worker is busy: {before} calls wait until it computes for them, which is its limit; call again later, or start \
+                 another worker"
+            )));
+        }
+        let place = places.acquire_owned().await;
+        place.map_err(|error| Status::internal(error.to_string()))
+    }
+}
+
+/// A call that waits, until it is dropped.
+struct Waits<'a>(&'a AtomicUsize);
+
+impl Drop for Waits<'_> {
+    fn drop(&mut self) {
+        self.0.fetch_sub(1, Ordering::Relaxed);
+    }
+}
