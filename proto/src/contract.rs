@@ -69,6 +69,11 @@ pub trait Contract: Send + Sync {
             call: "ListInstances",
         })
     }
+    /// Whether a call that simulates `span` (s) with an instance presumably takes no longer than a millisecond, to judge by the calls
+    /// before. A server then spares itself what it does for calls that may take long.
+    fn is_short(&self, _instance: u64, _span: f64) -> bool {
+        false
+    }
     /// Says what holds an instance from now on. Servers do; whoever calls without a server holds nothing, and its instances
     /// stay until [`Contract::terminate`].
     fn hold(&self, _instance: u64, _by: &Hold) {}

@@ -96,7 +96,11 @@ mod tests {
                 let own = Cancel::current();
                 assert!(!own.is_requested());
                 caller.raise();
-                assert!(std::thread::spawn(move || own.is_requested()).join().unwrap());
+                assert!(
+                    std::thread::spawn(move || own.is_requested())
+                        .join()
+                        .unwrap()
+                );
             });
             assert!(Cancel::current().is_requested());
         });

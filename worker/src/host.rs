@@ -17,6 +17,7 @@ use linchpin_proto::version::{self, PROTOCOL};
 use crate::instance::{Instance, Signals};
 use crate::joint_load::request::joint_loads;
 use crate::setup::{SetupError, names};
+use crate::span::Span;
 use crate::{Model, Setup};
 use slot::Slot;
 
@@ -93,13 +94,14 @@ impl Host {
     fn with_instance<T>(
         &self,
         number: u64,
+        span: f64,
         call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
     ) -> Result<T, CallError> {
         let slot = self.table().get(&number).cloned();
         let Some(slot) = slot else {
             return Err(CallError::no_instance(number));
         };
-        without_panic(|| slot.call(call)).map_err(|failure| match slot.has_ended() {
+        without_panic(|| slot.call_over(span, call)).map_err(|failure| match slot.has_ended() {
             true => CallError::no_instance(number),
             false => failure.into(),
         })
@@ -222,12 +224,16 @@ impl Contract for Host {
     }
 
     fn snapshot(&self, request: &v1::SnapshotRequest) -> Result<v1::SnapshotReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.snapshot(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.snapshot(request)
+        })?;
         Ok(reply.to(request))
     }
 
     fn restore(&self, request: &v1::RestoreRequest) -> Result<v1::RestoreReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.restore(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.restore(request)
+        })?;
         Ok(reply.to(request))
     }
 
@@ -235,7 +241,9 @@ impl Contract for Host {
         &self,
         request: &v1::ExportStateRequest,
     ) -> Result<v1::ExportStateReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.export())?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.export()
+        })?;
         Ok(reply.to(request))
     }
 
@@ -243,12 +251,16 @@ impl Contract for Host {
         &self,
         request: &v1::ImportStateRequest,
     ) -> Result<v1::ImportStateReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.import(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.import(request)
+        })?;
         Ok(reply.to(request))
     }
 
     fn step(&self, request: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.step(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.step(request)
+        })?;
         Ok(reply.to(request))
     }
 
@@ -256,14 +268,16 @@ impl Contract for Host {
         &self,
         request: &v1::PerturbedStepRequest,
     ) -> Result<v1::PerturbedStepReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| {
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
             instance.perturbed_step(request)
         })?;
         Ok(reply.to(request))
     }
 
     fn evaluate(&self, request: &v1::EvaluateRequest) -> Result<v1::EvaluateReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.evaluate(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.evaluate(request)
+        })?;
         Ok(reply.to(request))
     }
 
@@ -279,7 +293,7 @@ impl Contract for Host {
         request: &v1::ExchangeRequest,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), CallError> {
-        self.with_instance(request.instance, |instance| {
+        self.with_instance(request.instance, request.span(), |instance| {
             instance.exchange(request, reply)
         })
     }
@@ -294,6 +308,12 @@ impl Contract for Host {
         Ok(v1::ListInstancesReply {
             instances: instances.collect(),
         })
+    }
+
+    fn is_short(&self, instance: u64, span: f64) -> bool {
+        let table = self.table();
+        let slot = table.get(&instance);
+        slot.is_none_or(|slot| slot.is_short(span))
     }
 
     fn hold(&self, instance: u64, by: &Hold) {

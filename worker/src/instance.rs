@@ -80,6 +80,11 @@ impl Instance {
         self.initialized
     }
 
+    /// The number of the last call that was answered.
+    pub(crate) fn sequence(&self) -> u64 {
+        self.sequence
+    }
+
     /// Whether no call that has a sequence number came after Initialize.
     pub(crate) fn is_new(&self) -> bool {
         matches!(self.answer, Answer::Initialize)

@@ -19,6 +19,7 @@ pub mod joint_load;
 pub mod server;
 pub mod setup;
 pub mod snapshot;
+mod span;
 pub mod subsystem;
 
 pub use cancel::Cancel;

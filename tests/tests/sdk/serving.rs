@@ -104,7 +104,9 @@ fn a_message_above_the_limit_is_refused_and_the_worker_lives() {
     let refused = ask(large(Capacity::default().message));
     assert_eq!(refused.code(), tonic::Code::OutOfRange, "{refused}");
     assert!(
-        refused.message().contains(&Capacity::default().message.to_string()),
+        refused
+            .message()
+            .contains(&Capacity::default().message.to_string()),
         "{refused}"
     );
     let understood = ask(large(Capacity::default().message / 2));

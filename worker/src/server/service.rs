@@ -1,20 +1,19 @@
 //! The generated service trait on top of [`Contract`].
 
 use std::pin::Pin;
-use std::sync::Arc;
-use std::task::{Context, Poll};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use linchpin_proto::contract::{CallError, Contract, Hold, Owner};
 use linchpin_proto::label::Labelled;
 use linchpin_proto::status::to_status;
 use linchpin_proto::v1::{self, worker_server::Worker};
-use tokio::sync::mpsc::{Receiver, Sender};
-use tokio_stream::Stream;
+use tokio_stream::{Stream, StreamExt};
 use tonic::{Request, Response, Status, Streaming};
 
 use super::connection::Caller;
 use super::solvers::{Place, Solvers};
 use crate::cancel::{Cancel, Flag};
+use crate::span::Span;
 
 /// Answers gRPC calls from a contract.
 pub(super) struct Service {
@@ -27,22 +26,31 @@ impl Service {
         Self { contract, solvers }
     }
 
-    /// Answers a call that a solver computes for. If its caller goes away before there is an answer, this is dropped, and the call is
-    /// cancelled.
+    /// Answers a call for an instance, which may be short.
     async fn compute<Q, A>(
         &self,
         request: Request<Q>,
         call: impl FnOnce(&dyn Contract, &Q) -> Result<A, CallError> + Send + 'static,
     ) -> Result<Response<A>, Status>
     where
-        Q: Labelled + Send + 'static,
+        Q: Labelled + Span + Send + 'static,
         A: Send + 'static,
     {
+        let instance = request.get_ref().label().instance.unwrap_or_default();
+        let span = request.get_ref().span();
+        let is_short = self.contract.is_short(instance, span);
         let place = self.solvers.place().await?;
-        self.compute_at(place, request, call).await
+        if !is_short {
+            return self.compute_apart(place, request, call).await;
+        }
+        let connection = connection(&request);
+        let contract = Arc::clone(&self.contract);
+        let answered = move || answer(&*contract, &request, call);
+        self.solvers.compute(place, &connection, answered).await
     }
 
-    async fn compute_at<Q, A>(
+    /// Answers a call that may take long.
+    async fn compute_apart<Q, A>(
         &self,
         place: Place,
         request: Request<Q>,
@@ -52,15 +60,11 @@ impl Service {
         Q: Labelled + Send + 'static,
         A: Send + 'static,
     {
-        let (contract, solvers) = (Arc::clone(&self.contract), Arc::clone(&self.solvers));
-        let gone = RaisedOnDrop::default();
-        let caller = gone.0.clone();
-        let answer = tokio::spawn(async move {
-            let answered = move || answer(&*contract, &request, call);
-            solvers.compute(place, &caller, answered).await
-        });
-        let answer = answer.await;
-        answer.unwrap_or_else(|error| Err(Status::internal(error.to_string())))
+        let contract = Arc::clone(&self.contract);
+        let answered = move || answer(&*contract, &request, call);
+        Arc::clone(&self.solvers)
+            .compute_apart(place, answered)
+            .await
     }
 }
 
@@ -82,25 +86,19 @@ fn answer<Q: Labelled, A>(
         check_owner(contract, instance, owner)?;
         contract.hold(instance, &caller.hold);
     }
-    answer
-        .map(Response::new)
-        .map_err(|error| to_status(&error))
-}
-
-/// A flag that is raised when whoever waits is gone.
-#[derive(Default)]
-struct RaisedOnDrop(Flag);
-
-impl Drop for RaisedOnDrop {
-    fn drop(&mut self) {
-        self.0.raise();
-    }
+    answer.map(Response::new).map_err(|error| to_status(&error))
 }
 
 /// Who calls, where certificates are shown.
 fn owner<Q>(request: &Request<Q>) -> Option<Owner> {
     let caller = request.extensions().get::<Caller>();
     caller.and_then(|caller| caller.owner.clone())
+}
+
+/// What is raised when the connection of a call is gone.
+fn connection<Q>(request: &Request<Q>) -> Flag {
+    let caller = request.extensions().get::<Caller>();
+    caller.map(|caller| caller.gone.clone()).unwrap_or_default()
 }
 
 /// Refuses calls for instances of others.
@@ -126,7 +124,10 @@ impl Worker for Service {
         request: Request<v1::DescribeRequest>,
     ) -> Result<Response<v1::DescribeReply>, Status> {
         let place = self.solvers.place_to_describe().await?;
-        self.compute_at(place, request, |contract, request| contract.describe(request)).await
+        self.compute_apart(place, request, |contract, request| {
+            contract.describe(request)
+        })
+        .await
     }
 
     async fn initialize(
@@ -134,7 +135,8 @@ impl Worker for Service {
         request: Request<v1::InitializeRequest>,
     ) -> Result<Response<v1::InitializeReply>, Status> {
         let owner = owner(&request);
-        self.compute(request, move |contract, request| match &owner {
+        let place = self.solvers.place().await?;
+        self.compute_apart(place, request, move |contract, request| match &owner {
             Some(owner) => contract.initialize_for(request, owner),
             None => contract.initialize(request),
         })
@@ -145,35 +147,40 @@ impl Worker for Service {
         &self,
         request: Request<v1::SnapshotRequest>,
     ) -> Result<Response<v1::SnapshotReply>, Status> {
-        self.compute(request, |contract, request| contract.snapshot(request)).await
+        self.compute(request, |contract, request| contract.snapshot(request))
+            .await
     }
 
     async fn restore(
         &self,
         request: Request<v1::RestoreRequest>,
     ) -> Result<Response<v1::RestoreReply>, Status> {
-        self.compute(request, |contract, request| contract.restore(request)).await
+        self.compute(request, |contract, request| contract.restore(request))
+            .await
     }
 
     async fn export_state(
         &self,
         request: Request<v1::ExportStateRequest>,
     ) -> Result<Response<v1::ExportStateReply>, Status> {
-        self.compute(request, |contract, request| contract.export_state(request)).await
+        self.compute(request, |contract, request| contract.export_state(request))
+            .await
     }
 
     async fn import_state(
         &self,
         request: Request<v1::ImportStateRequest>,
     ) -> Result<Response<v1::ImportStateReply>, Status> {
-        self.compute(request, |contract, request| contract.import_state(request)).await
+        self.compute(request, |contract, request| contract.import_state(request))
+            .await
     }
 
     async fn step(
         &self,
         request: Request<v1::StepRequest>,
     ) -> Result<Response<v1::StepReply>, Status> {
-        self.compute(request, |contract, request| contract.step(request)).await
+        self.compute(request, |contract, request| contract.step(request))
+            .await
     }
 
     async fn perturbed_step(
@@ -190,7 +197,8 @@ impl Worker for Service {
         &self,
         request: Request<v1::EvaluateRequest>,
     ) -> Result<Response<v1::EvaluateReply>, Status> {
-        self.compute(request, |contract, request| contract.evaluate(request)).await
+        self.compute(request, |contract, request| contract.evaluate(request))
+            .await
     }
 
     async fn terminate(
@@ -223,35 +231,17 @@ impl Worker for Service {
         &self,
         request: Request<Streaming<v1::ExchangeRequest>>,
     ) -> Result<Response<Self::ExchangeStream>, Status> {
-        let turns = Turns {
+        let turns = Arc::new(Turns {
             contract: Arc::clone(&self.contract),
             solvers: Arc::clone(&self.solvers),
             stream: Hold::stream(),
             owner: owner(&request),
-            held: None,
-        };
-        let (replies, answered) = tokio::sync::mpsc::channel(1);
-        let gone = RaisedOnDrop::default();
-        // A task of its own: while it computes, the end of the stream can still be seen.
-        tokio::spawn(turns.take(request.into_inner(), replies, gone.0.clone()));
-        Ok(Response::new(Box::pin(Replies {
-            answered,
-            _gone: gone,
-        })))
-    }
-}
-
-/// The answers on their way to the caller. Dropped when the stream ends, on either side.
-struct Replies {
-    answered: Receiver<Result<v1::ExchangeReply, Status>>,
-    _gone: RaisedOnDrop,
-}
-
-impl Stream for Replies {
-    type Item = Result<v1::ExchangeReply, Status>;
-
-    fn poll_next(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        self.answered.poll_recv(context)
+            connection: connection(&request),
+            held: Mutex::default(),
+        });
+        let requests = request.into_inner();
+        let replies = requests.then(move |request| Arc::clone(&turns).turn(request));
+        Ok(Response::new(Box::pin(replies)))
     }
 }
 
@@ -261,49 +251,35 @@ struct Turns {
     solvers: Arc<Solvers>,
     stream: Hold,
     owner: Option<Owner>,
+    connection: Flag,
     /// The instance that the stream holds since its last turn.
-    held: Option<u64>,
+    held: Mutex<Option<u64>>,
 }
 
 impl Turns {
-    /// One turn after the other, until `caller` is raised. A request is read when the one before it is answered.
-    async fn take(
-        mut self,
-        mut requests: Streaming<v1::ExchangeRequest>,
-        replies: Sender<Result<v1::ExchangeReply, Status>>,
-        caller: Flag,
-    ) {
-        loop {
-            let reply = match requests.message().await {
-                Ok(Some(request)) => tokio::select! {
-                    biased;
-                    reply = self.turn(request, &caller) => reply,
-                    () = replies.closed() => return,
-                },
-                Ok(None) => return,
-                Err(status) => Err(status),
-            };
-            let is_last = reply.is_err();
-            if replies.send(reply).await.is_err() || is_last {
-                return;
-            }
+    async fn turn(
+        self: Arc<Self>,
+        request: Result<v1::ExchangeRequest, Status>,
+    ) -> Result<v1::ExchangeReply, Status> {
+        let request = request?;
+        let instance = request.instance;
+        check_owner(&*self.contract, instance, self.owner.as_ref())?;
+        let before = self.held().replace(instance);
+        if before != Some(instance) {
+            self.contract.hold(instance, &self.stream);
+        }
+        let is_short = self.contract.is_short(instance, request.span());
+        let contract = Arc::clone(&self.contract);
+        let turn = move || exchange(&*contract, &request);
+        let place = self.solvers.place().await?;
+        match is_short {
+            true => self.solvers.compute(place, &self.connection, turn).await,
+            false => Arc::clone(&self.solvers).compute_apart(place, turn).await,
         }
     }
 
-    async fn turn(
-        &mut self,
-        request: v1::ExchangeRequest,
-        caller: &Flag,
-    ) -> Result<v1::ExchangeReply, Status> {
-        check_owner(&*self.contract, request.instance, self.owner.as_ref())?;
-        if self.held != Some(request.instance) {
-            self.contract.hold(request.instance, &self.stream);
-            self.held = Some(request.instance);
-        }
-        let place = self.solvers.place().await?;
-        let contract = Arc::clone(&self.contract);
-        let turn = move || exchange(&*contract, &request);
-        self.solvers.compute(place, caller, turn).await
+    fn held(&self) -> MutexGuard<'_, Option<u64>> {
+        self.held.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -79,8 +79,24 @@ impl Solvers {
         self.descriptions.place().await
     }
 
-    /// Computes at a place, until `caller` is raised or the worker shuts down. To be awaited in a task of its own, which has nothing
-    /// else to do.
+    /// Computes in a task of its own, so that whoever waits can be dropped meanwhile, which cancels the call. That wakes another thread
+    /// before and behind it.
+    ///
+    /// # Errors
+    /// As [`Solvers::compute`].
+    pub async fn compute_apart<A: Send + 'static>(
+        self: Arc<Self>,
+        place: Place,
+        call: impl FnOnce() -> Result<A, Status> + Send + 'static,
+    ) -> Result<A, Status> {
+        let gone = RaisedOnDrop::default();
+        let caller = gone.0.clone();
+        let task = async move { self.compute(place, &caller, call).await };
+        let answer = tokio::spawn(task).await;
+        answer.unwrap_or_else(|error| Err(Status::internal(error.to_string())))
+    }
+
+    /// Computes at a place, until `caller` is raised or the worker shuts down. Meanwhile the task that awaits this does nothing else.
     ///
     /// # Errors
     /// The status of a call that failed because the worker shuts down, or without a word.
@@ -91,8 +107,11 @@ impl Solvers {
         call: impl FnOnce() -> Result<A, Status> + Send + 'static,
     ) -> Result<A, Status> {
         let (ends, caller) = (self.ends.clone(), caller.clone());
-        let cancellable =
-            move || Cancel::within(By::Worker, &ends, || Cancel::within(By::Caller, &caller, call));
+        let cancellable = move || {
+            Cancel::within(By::Worker, &ends, || {
+                Cancel::within(By::Caller, &caller, call)
+            })
+        };
         let answer = match &self.route {
             Route::Here(sentry) => sentry.look_after(cancellable),
             Route::Elsewhere => tokio::task::spawn_blocking(cancellable)
@@ -115,6 +134,16 @@ impl Solvers {
     /// Whether a call computes.
     pub fn are_busy(&self) -> bool {
         self.steps.is_busy() || self.descriptions.is_busy()
+    }
+}
+
+/// A flag that is raised when whoever waits is gone.
+#[derive(Default)]
+struct RaisedOnDrop(Flag);
+
+impl Drop for RaisedOnDrop {
+    fn drop(&mut self) {
+        self.0.raise();
     }
 }
 
