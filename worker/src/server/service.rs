@@ -123,11 +123,13 @@ impl Worker for Service {
         &self,
         request: Request<v1::DescribeRequest>,
     ) -> Result<Response<v1::DescribeReply>, Status> {
-        let place = self.solvers.place_to_describe().await?;
-        self.compute_apart(place, request, |contract, request| {
-            contract.describe(request)
-        })
-        .await
+        let contract = Arc::clone(&self.contract);
+        let described = move || {
+            answer(&*contract, &request, |contract, request| {
+                contract.describe(request)
+            })
+        };
+        self.solvers.describe(described).await
     }
 
     async fn initialize(

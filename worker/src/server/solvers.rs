@@ -13,8 +13,8 @@ use tonic::Status;
 use super::sentry::Sentry;
 use crate::cancel::{By, Cancel, Flag};
 
-/// Threads of a server beside those that compute: one for what comes in and goes out, one for descriptions.
-pub(super) const OTHER_THREADS: usize = 2;
+/// Threads of a server beside those that compute: one for what comes in and goes out.
+pub(super) const OTHER_THREADS: usize = 1;
 
 /// The places where calls compute.
 pub(super) struct Solvers {
@@ -70,13 +70,21 @@ impl Solvers {
         self.steps.place().await
     }
 
-    /// Waits for the place where descriptions are made: one, so that nobody can flood the worker with them, and none of those for
-    /// steps, which may be taken for long.
+    /// Makes a description, on a thread that the runtime keeps for such. There is one place for it, so that nobody can flood the worker,
+    /// which is none of those for steps: they may be taken for long.
     ///
     /// # Errors
-    /// As [`Solvers::place`].
-    pub async fn place_to_describe(&self) -> Result<Place, Status> {
-        self.descriptions.place().await
+    /// As [`Solvers::place`] and [`Solvers::compute`].
+    pub async fn describe<A: Send + 'static>(
+        &self,
+        call: impl FnOnce() -> Result<A, Status> + Send + 'static,
+    ) -> Result<A, Status> {
+        let place = self.descriptions.place().await?;
+        let described = move || {
+            let _place = place;
+            call()
+        };
+        elsewhere(described).await
     }
 
     /// Computes in a task of its own, so that whoever waits can be dropped meanwhile, which cancels the call. That wakes another thread
@@ -114,9 +122,7 @@ impl Solvers {
         };
         let answer = match &self.route {
             Route::Here(sentry) => sentry.look_after(cancellable),
-            Route::Elsewhere => tokio::task::spawn_blocking(cancellable)
-                .await
-                .unwrap_or_else(|error| Err(Status::internal(error.to_string()))),
+            Route::Elsewhere => elsewhere(cancellable).await,
         };
         drop(place);
         match answer {
@@ -135,6 +141,14 @@ impl Solvers {
     pub fn are_busy(&self) -> bool {
         self.steps.is_busy() || self.descriptions.is_busy()
     }
+}
+
+/// Computes on a thread that the runtime keeps for such.
+async fn elsewhere<A: Send + 'static>(
+    call: impl FnOnce() -> Result<A, Status> + Send + 'static,
+) -> Result<A, Status> {
+    let answer = tokio::task::spawn_blocking(call).await;
+    answer.unwrap_or_else(|error| Err(Status::internal(error.to_string())))
 }
 
 /// A flag that is raised when whoever waits is gone.
