@@ -12,6 +12,7 @@ use linchpin_tests::process::{Running, Workshop, wait_until};
 use rustix::process::Signal;
 use tokio::runtime::Runtime;
 use tokio_stream::StreamExt;
+use tokio_stream::wrappers::UnboundedReceiverStream;
 use tonic::transport::{Channel, Endpoint};
 
 const INSTANCE: u64 = 0x10f6;
@@ -230,10 +231,14 @@ fn a_stream_that_ends_cancels_its_turn() {
         let mut client = house.connect();
         house.runtime.block_on(async {
             client.initialize(initialize()).await.unwrap();
-            let requests = tokio_stream::iter([long_exchange(1)]);
-            let rest = tokio_stream::pending().take(usize::from(is_open));
+            let (sender, requests) = tokio::sync::mpsc::unbounded_channel();
+            sender.send(long_exchange(1)).unwrap();
+            // Kept until the whole stream is dropped, or dropped before.
+            let sender = is_open.then_some(sender);
             let stream = tokio::time::timeout(MOMENT, async {
-                let replies = client.exchange(requests.chain(rest)).await.unwrap();
+                let _sender = sender;
+                let requests = UnboundedReceiverStream::new(requests);
+                let replies = client.exchange(requests).await.unwrap();
                 replies.into_inner().message().await
             });
             assert!(stream.await.is_err(), "the step is not long");
