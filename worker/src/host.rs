@@ -48,6 +48,8 @@ impl Default for Limits {
 /// A worker: its models and the instances that masters made of them.
 pub struct Host {
     models: BTreeMap<String, Box<dyn Model>>,
+    /// Of all models, with the defaults of their parameters.
+    descriptions: Vec<v1::Model>,
     instances: RwLock<Instances>,
     limits: Limits,
 }
@@ -62,11 +64,12 @@ impl Host {
 
     /// A worker for `models`.
     pub fn with_limits(models: Vec<Box<dyn Model>>, limits: Limits) -> Self {
-        let models = models
+        let models: BTreeMap<_, _> = models
             .into_iter()
             .map(|model| (model.describe().name, model))
             .collect();
         Self {
+            descriptions: models.values().map(|model| model.describe()).collect(),
             models,
             instances: RwLock::default(),
             limits,
@@ -139,7 +142,7 @@ impl Host {
     /// The model that the request names, with its parameters, or all models.
     fn describe_models(&self, request: &v1::DescribeRequest) -> Result<Vec<v1::Model>, Failure> {
         let Some(name) = &request.model else {
-            return Ok(self.models.values().map(|model| model.describe()).collect());
+            return Ok(self.descriptions.clone());
         };
         let description = self.model(name)?.describe_with(&request.parameters);
         Ok(vec![description.map_err(refuse)?])

@@ -5,6 +5,7 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 use tokio::runtime::{Handle, RuntimeFlavor};
 use tokio::sync::{OwnedSemaphorePermit, Semaphore};
@@ -15,6 +16,9 @@ use crate::cancel::{By, Cancel, Flag};
 
 /// Threads of a server beside those that compute: one for what comes in and goes out.
 pub(super) const OTHER_THREADS: usize = 1;
+
+/// Pause between two descriptions.
+const PAUSE: Duration = Duration::from_millis(2);
 
 /// The places where calls compute.
 pub(super) struct Solvers {
@@ -70,8 +74,8 @@ impl Solvers {
         self.steps.place().await
     }
 
-    /// Makes a description, on a thread that the runtime keeps for such. There is one place for it, so that nobody can flood the worker,
-    /// which is none of those for steps: they may be taken for long.
+    /// Makes a description, on a thread that the runtime keeps for such. There is one place for it, which is none of those for steps: they may
+    /// be taken for long. It is free again after a pause, so that nobody can flood the worker.
     ///
     /// # Errors
     /// As [`Solvers::place`] and [`Solvers::compute`].
@@ -81,8 +85,13 @@ impl Solvers {
     ) -> Result<A, Status> {
         let place = self.descriptions.place().await?;
         let described = move || {
-            let _place = place;
-            call()
+            let answer = call();
+            // Written to the socket it takes time as well.
+            tokio::spawn(async move {
+                tokio::time::sleep(PAUSE).await;
+                drop(place);
+            });
+            answer
         };
         elsewhere(described).await
     }
