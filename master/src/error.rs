@@ -273,6 +273,9 @@ impl RunError {
 
 fn advice(error: &CallError) -> &'static str {
     match error {
+        CallError::Deadline {
+            alive: Some(false), ..
+        } => "\n  help: look after the worker and its machine; run.deadline gives it more time",
         CallError::Deadline { .. } => {
             "\n  help: the worker hangs, or its step takes longer: run.deadline gives it more time"
         }

@@ -3,6 +3,8 @@
 //! * [`rk4`]: explicit, fixed steps, order 4;
 //! * [`radau`]: implicit, step-size control, order 5.
 //!
+//! Both give up between two steps if the call that they work for is [cancelled](linchpin_worker::Cancel).
+//!
 //! Times are relative to the start of the interval, so that nothing is lost late in a long run.
 
 mod quadrature;
@@ -10,6 +12,7 @@ pub mod radau;
 pub mod rk4;
 
 use linchpin_proto::readable::number;
+use linchpin_worker::Cancel;
 use nalgebra::DMatrix;
 
 pub use quadrature::{Quadrature, gauss};
@@ -60,10 +63,24 @@ pub enum Cause {
     /// The right-hand side or the state is infinite or not a number.
     #[error("the solution is not finite")]
     NotFinite,
+    /// Nobody waits for the result any more.
+    #[error("the integration was cancelled")]
+    Cancelled,
     /// The interval takes more internal steps than allowed.
     #[error("{limit} internal steps did not reach the end of the interval")]
     TooManySteps {
         /// The limit.
         limit: usize,
     },
+}
+
+/// Gives up at `tau` (s) if the call under way is cancelled.
+fn check(cancel: &Cancel, tau: f64) -> Result<(), IntegrationError> {
+    match cancel.is_requested() {
+        true => Err(IntegrationError {
+            tau,
+            cause: Cause::Cancelled,
+        }),
+        false => Ok(()),
+    }
 }

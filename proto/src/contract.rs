@@ -69,6 +69,11 @@ pub trait Contract: Send + Sync {
             call: "ListInstances",
         })
     }
+    /// Whether a call that simulates `span` (s) with an instance presumably takes no longer than a millisecond, to judge by the calls
+    /// before. A server then spares itself what it does for calls that may take long.
+    fn is_short(&self, _instance: u64, _span: f64) -> bool {
+        false
+    }
     /// Says what holds an instance from now on. Servers do; whoever calls without a server holds nothing, and its instances
     /// stay until [`Contract::terminate`].
     fn hold(&self, _instance: u64, _by: &Hold) {}
@@ -198,11 +203,23 @@ pub enum CallError {
         expected: u64,
     },
     /// No answer in time.
-    #[error("no answer within {seconds} s")]
+    #[error("no answer within {seconds} s{}", sign_of_life(*.alive))]
     Deadline {
         /// The time limit.
         seconds: f64,
+        /// Whether the worker answered a health check then; absent where it was not asked.
+        alive: Option<bool>,
     },
+}
+
+fn sign_of_life(alive: Option<bool>) -> &'static str {
+    match alive {
+        Some(true) => {
+            ", though it answers health checks: it still computes, or its answer was lost"
+        }
+        Some(false) => ", nor to a health check: it hangs, or its machine is out of reach",
+        None => "",
+    }
 }
 
 /// The field of a request that names the instance.

@@ -17,6 +17,7 @@ use linchpin_proto::version::{self, PROTOCOL};
 use crate::instance::{Instance, Signals};
 use crate::joint_load::request::joint_loads;
 use crate::setup::{SetupError, names};
+use crate::span::Span;
 use crate::{Model, Setup};
 use slot::Slot;
 
@@ -47,6 +48,8 @@ impl Default for Limits {
 /// A worker: its models and the instances that masters made of them.
 pub struct Host {
     models: BTreeMap<String, Box<dyn Model>>,
+    /// Of all models, with the defaults of their parameters.
+    descriptions: Vec<v1::Model>,
     instances: RwLock<Instances>,
     limits: Limits,
 }
@@ -61,11 +64,12 @@ impl Host {
 
     /// A worker for `models`.
     pub fn with_limits(models: Vec<Box<dyn Model>>, limits: Limits) -> Self {
-        let models = models
+        let models: BTreeMap<_, _> = models
             .into_iter()
             .map(|model| (model.describe().name, model))
             .collect();
         Self {
+            descriptions: models.values().map(|model| model.describe()).collect(),
             models,
             instances: RwLock::default(),
             limits,
@@ -93,13 +97,17 @@ impl Host {
     fn with_instance<T>(
         &self,
         number: u64,
+        span: f64,
         call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
     ) -> Result<T, CallError> {
         let slot = self.table().get(&number).cloned();
         let Some(slot) = slot else {
             return Err(CallError::no_instance(number));
         };
-        Ok(without_panic(|| slot.call(call))?)
+        without_panic(|| slot.call_over(span, call)).map_err(|failure| match slot.has_ended() {
+            true => CallError::no_instance(number),
+            false => failure.into(),
+        })
     }
 
     fn build(&self, request: &v1::InitializeRequest) -> Result<Instance, Failure> {
@@ -134,7 +142,7 @@ impl Host {
     /// The model that the request names, with its parameters, or all models.
     fn describe_models(&self, request: &v1::DescribeRequest) -> Result<Vec<v1::Model>, Failure> {
         let Some(name) = &request.model else {
-            return Ok(self.models.values().map(|model| model.describe()).collect());
+            return Ok(self.descriptions.clone());
         };
         let description = self.model(name)?.describe_with(&request.parameters);
         Ok(vec![description.map_err(refuse)?])
@@ -219,12 +227,16 @@ impl Contract for Host {
     }
 
     fn snapshot(&self, request: &v1::SnapshotRequest) -> Result<v1::SnapshotReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.snapshot(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.snapshot(request)
+        })?;
         Ok(reply.to(request))
     }
 
     fn restore(&self, request: &v1::RestoreRequest) -> Result<v1::RestoreReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.restore(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.restore(request)
+        })?;
         Ok(reply.to(request))
     }
 
@@ -232,7 +244,9 @@ impl Contract for Host {
         &self,
         request: &v1::ExportStateRequest,
     ) -> Result<v1::ExportStateReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.export())?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.export()
+        })?;
         Ok(reply.to(request))
     }
 
@@ -240,12 +254,16 @@ impl Contract for Host {
         &self,
         request: &v1::ImportStateRequest,
     ) -> Result<v1::ImportStateReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.import(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.import(request)
+        })?;
         Ok(reply.to(request))
     }
 
     fn step(&self, request: &v1::StepRequest) -> Result<v1::StepReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.step(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.step(request)
+        })?;
         Ok(reply.to(request))
     }
 
@@ -253,19 +271,23 @@ impl Contract for Host {
         &self,
         request: &v1::PerturbedStepRequest,
     ) -> Result<v1::PerturbedStepReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| {
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
             instance.perturbed_step(request)
         })?;
         Ok(reply.to(request))
     }
 
     fn evaluate(&self, request: &v1::EvaluateRequest) -> Result<v1::EvaluateReply, CallError> {
-        let reply = self.with_instance(request.instance, |instance| instance.evaluate(request))?;
+        let reply = self.with_instance(request.instance, request.span(), |instance| {
+            instance.evaluate(request)
+        })?;
         Ok(reply.to(request))
     }
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
-        self.change_table().remove(&request.instance);
+        if let Some(slot) = self.change_table().remove(&request.instance) {
+            slot.end();
+        }
         Ok(v1::TerminateReply::default().to(request))
     }
 
@@ -274,7 +296,7 @@ impl Contract for Host {
         request: &v1::ExchangeRequest,
         reply: &mut v1::ExchangeReply,
     ) -> Result<(), CallError> {
-        self.with_instance(request.instance, |instance| {
+        self.with_instance(request.instance, request.span(), |instance| {
             instance.exchange(request, reply)
         })
     }
@@ -289,6 +311,12 @@ impl Contract for Host {
         Ok(v1::ListInstancesReply {
             instances: instances.collect(),
         })
+    }
+
+    fn is_short(&self, instance: u64, span: f64) -> bool {
+        let table = self.table();
+        let slot = table.get(&instance);
+        slot.is_none_or(|slot| slot.is_short(span))
     }
 
     fn hold(&self, instance: u64, by: &Hold) {

@@ -9,7 +9,7 @@ use linchpin_proto::exchange::other_content;
 use linchpin_proto::v1::{self, Failure};
 use prost::Message;
 
-use crate::Subsystem;
+use crate::{Cancel, Subsystem};
 use motion::{Base, Horizon, Inside, Meter, Motion, Sequence, interval};
 use snapshots::Snapshots;
 
@@ -18,7 +18,7 @@ pub(crate) use signals::{Signals, find};
 /// A subsystem that is being driven by a master.
 ///
 /// It has one state: that of the start, of the last Step, Restore or ImportState, or of the last advance of an exchange, which can be
-/// taken back. A call that fails leaves it as it was.
+/// taken back. A call that fails leaves it as it was; one that is cancelled has not been.
 pub struct Instance {
     motion: Motion,
     snapshots: Snapshots,
@@ -78,6 +78,11 @@ impl Instance {
     /// The answer to Initialize.
     pub(crate) fn initialized(&self) -> v1::InitializeReply {
         self.initialized
+    }
+
+    /// The number of the last call that was answered.
+    pub(crate) fn sequence(&self) -> u64 {
+        self.sequence
     }
 
     /// Whether no call that has a sequence number came after Initialize.
@@ -314,7 +319,12 @@ impl Instance {
         }
     }
 
+    /// Keeps an answer for when its number is repeated. There is none of a call that failed while nobody waited for it: the same
+    /// request may come again.
     fn settle(&mut self, request: &impl Message, answer: Answer) {
+        if answer.is_failed() && Cancel::current().is_requested() {
+            return;
+        }
         self.sequence = self.sequence.wrapping_add(1);
         self.asked.clear();
         // A Vec takes a message of any length.
@@ -324,6 +334,18 @@ impl Instance {
 }
 
 impl Answer {
+    fn is_failed(&self) -> bool {
+        match self {
+            Self::Initialize => false,
+            Self::Snapshot(answer) => answer.is_err(),
+            Self::Restore(answer) => answer.is_err(),
+            Self::ImportState(answer) => answer.is_err(),
+            Self::Step(answer) => answer.is_err(),
+            Self::PerturbedStep(answer) => answer.is_err(),
+            Self::Exchange(answer) => answer.is_err(),
+        }
+    }
+
     fn belongs_not_to(&self, call: &str) -> Failure {
         let own = match self {
             Self::Initialize => "Initialize",

@@ -1,16 +1,19 @@
 //! The gRPC service around a worker: `linchpin.v1.Worker`, health, reflection.
 
 mod address;
+mod capacity;
 mod connection;
 mod handshakes;
+mod sentry;
 mod service;
+mod solvers;
 
 use std::fs::Permissions;
 use std::future::Future;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use linchpin_proto::contract::Contract;
 use linchpin_proto::token::{Demanding, Token};
@@ -23,14 +26,25 @@ use tonic::service::interceptor::InterceptedService;
 use tonic::transport::server::{Router, TcpIncoming};
 
 pub use address::{Address, AddressError};
+pub use capacity::{Capacity, runtime};
 use connection::Connection;
 use service::Service;
+use solvers::Solvers;
 
-/// Largest message that is accepted, in bytes.
-pub const MESSAGE_LIMIT: usize = 16 << 20;
+/// Time that calls under way have to finish after a shutdown. Then they are cancelled.
+pub const GRACE: Duration = Duration::from_millis(500);
 
-/// Time that calls under way have to finish after a shutdown.
-pub const GRACE: Duration = Duration::from_secs(2);
+/// Time that cancelled calls have to end. Solvers that do not look whether they are cancelled are left alone after it.
+const LAST_GRACE: Duration = Duration::from_millis(300);
+
+/// Pause between two looks whether a cancelled call has ended.
+const LOOK: Duration = Duration::from_millis(5);
+
+/// Largest headers of a request in bytes. Those of the contract have some hundred.
+const HEADERS: u32 = 16 << 10;
+
+/// Streams that a caller has reset before they were accepted, above which its connection is closed: such floods cost the caller nothing.
+const RESETS: usize = 20;
 
 /// Pause between two looks for instances whose lease is over.
 const TIDY: Duration = Duration::from_millis(500);
@@ -124,7 +138,7 @@ fn another(address: &Address) -> &'static str {
 #[error("the server on {address} stopped: {source}")]
 pub struct ServeError {
     address: Address,
-    source: tonic::transport::Error,
+    source: Box<dyn std::error::Error + Send + Sync>,
 }
 
 /// A worker that listens.
@@ -134,6 +148,7 @@ pub struct Server {
     address: Address,
     reach: Reach,
     token: Demanding,
+    capacity: Capacity,
 }
 
 enum Listener {
@@ -183,6 +198,7 @@ impl Server {
             address: bound,
             reach,
             token: Demanding::default(),
+            capacity: Capacity::default(),
         })
     }
 
@@ -193,6 +209,12 @@ impl Server {
             token: Demanding(Some(token)),
             ..self
         }
+    }
+
+    /// Does so much for its callers.
+    #[must_use]
+    pub fn with_capacity(self, capacity: Capacity) -> Self {
+        Self { capacity, ..self }
     }
 
     /// Where it listens, with the port that the system chose.
@@ -208,14 +230,34 @@ impl Server {
         }
     }
 
-    /// Answers calls until `shutdown` completes; calls under way may take [`GRACE`] to finish.
+    /// Answers calls until `shutdown` completes; calls under way may take [`GRACE`] to finish, and are cancelled then. A solver that
+    /// does not look whether it is cancelled computes on when this returns: the process has to end.
+    ///
+    /// Best on a [`runtime`] of its own.
     pub async fn serve(self, shutdown: impl Future<Output = ()>) -> Result<(), ServeError> {
+        let Capacity {
+            threads,
+            waiting,
+            message,
+            calls,
+        } = self.capacity;
+        let solvers = Solvers::new(threads, waiting).map_err(|source| ServeError {
+            address: self.address.clone(),
+            source: source.into(),
+        })?;
+        let solvers = Arc::new(solvers);
         let (health, health_service) = tonic_health::server::health_reporter();
         health.set_serving::<WorkerServer<Service>>().await;
-        let worker = WorkerServer::new(Service::new(Arc::clone(&self.contract)))
-            .max_decoding_message_size(MESSAGE_LIMIT)
-            .max_encoding_message_size(MESSAGE_LIMIT);
+        let service = Service::new(Arc::clone(&self.contract), Arc::clone(&solvers));
+        let worker = WorkerServer::new(service)
+            .max_decoding_message_size(message)
+            .max_encoding_message_size(message);
         let router = tonic::transport::Server::builder()
+            .max_concurrent_streams(Some(calls))
+            .http2_max_header_list_size(Some(HEADERS))
+            .http2_max_pending_accept_reset_streams(Some(RESETS))
+            // None by HTTP/2: a master that computes or is stopped could not answer. TCP looks after machines that are gone.
+            .http2_keepalive_interval(None)
             .add_service(health_service)
             .add_optional_service(reflection())
             .add_service(InterceptedService::new(worker, self.token));
@@ -233,12 +275,12 @@ impl Server {
         };
         let served = tokio::select! {
             served = run(router, self.listener, self.reach, shutdown) => served,
-            () = overdue(stopped) => Ok(()),
+            () = overdue(stopped, &solvers) => Ok(()),
             () = tidy(&*self.contract) => Ok(()),
         };
         served.map_err(|source| ServeError {
             address: self.address,
-            source,
+            source: source.into(),
         })
     }
 }
@@ -281,10 +323,15 @@ async fn tidy(contract: &dyn Contract) {
 
 /// Completes when the calls under way have had their time since the shutdown. An exchange stream that its master
 /// keeps open would otherwise keep the worker alive.
-async fn overdue(stopped: tokio::sync::oneshot::Receiver<()>) {
-    match stopped.await {
-        Ok(()) => tokio::time::sleep(GRACE).await,
-        Err(_) => std::future::pending().await,
+async fn overdue(stopped: tokio::sync::oneshot::Receiver<()>, solvers: &Solvers) {
+    if stopped.await.is_err() {
+        return std::future::pending().await;
+    }
+    tokio::time::sleep(GRACE).await;
+    solvers.end();
+    let give_up = Instant::now() + LAST_GRACE;
+    while solvers.are_busy() && Instant::now() < give_up {
+        tokio::time::sleep(LOOK).await;
     }
 }
 

@@ -33,6 +33,12 @@ pub enum StepFailure {
         /// What went wrong.
         message: String,
     },
+    /// Nobody waits for the step any more: see [`Cancel`](crate::Cancel).
+    #[error("the step was cancelled at t = {t} s", t = linchpin_proto::readable::time(*t))]
+    Cancelled {
+        /// Where the solver stopped.
+        t: f64,
+    },
     /// This subsystem cannot do what its capabilities do not say.
     #[error("this model does not offer {what}")]
     NotOffered {
@@ -56,6 +62,8 @@ const INTEGRALS: &str = "integrals of outputs";
 /// joint loads of [`Setup::joint_loads`] read. There are none unless the model's capabilities say `joint_loads`.
 pub trait Subsystem: Send {
     /// Integrates over `interval` under `inputs` (polynomials of the time since `interval.start`).
+    ///
+    /// A step that takes long looks at [`Cancel::current`](crate::Cancel::current) in every internal step.
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure>;
 
     /// Writes the outputs numbered `wanted` (order of the description) at time `t` to `values`, under the input

@@ -11,6 +11,8 @@ use linchpin_proto::v1::worker_client::WorkerClient;
 use linchpin_proto::v1::*;
 use tokio::runtime::Runtime;
 use tonic::{Response, Status};
+use tonic_health::pb::HealthCheckRequest;
+use tonic_health::pb::health_client::HealthClient;
 
 use super::address::Access;
 use super::channel::{Authorized, Opened, open};
@@ -25,9 +27,13 @@ const MESSAGE_LIMIT: usize = 16 << 20;
 /// Longest time for the end of an instance: a worker that hangs must not hold up the end of a run.
 const TERMINATE_TIMEOUT: Duration = Duration::from_secs(1);
 
+/// Longest time for a sign of life of a worker whose answer is late.
+const SIGN_OF_LIFE: Duration = Duration::from_millis(500);
+
 /// A worker behind gRPC.
 pub struct Grpc {
     pub(super) client: WorkerClient<Authorized>,
+    channel: Authorized,
     pub(super) runtime: Arc<Runtime>,
     pub(super) limits: TimeLimits,
     pub(super) interrupt: Interrupt,
@@ -58,16 +64,40 @@ impl Grpc {
         interrupt: Interrupt,
     ) -> Result<Self, CallError> {
         let Opened { channel, witness } = open(address, limits, access, &runtime, &interrupt)?;
-        let client = WorkerClient::new(channel)
+        let client = WorkerClient::new(channel.clone())
             .max_decoding_message_size(MESSAGE_LIMIT)
             .max_encoding_message_size(MESSAGE_LIMIT);
         Ok(Self {
             client,
+            channel,
             runtime,
             limits,
             interrupt,
             address: address.to_owned(),
             witness,
+        })
+    }
+
+    /// Where an answer is late: whether the worker answers something else, which tells one that computes from one that hangs.
+    pub(super) async fn with_sign_of_life<T>(
+        &self,
+        answer: Result<T, CallError>,
+    ) -> Result<T, CallError> {
+        let Err(CallError::Deadline { seconds, .. }) = answer else {
+            return answer;
+        };
+        let mut client = HealthClient::new(self.channel.clone());
+        let check = client.check(HealthCheckRequest::default());
+        let told = unless(&self.interrupt, within(SIGN_OF_LIFE, check)).await?;
+        let alive = match told {
+            Ok(Ok(_)) => true,
+            // Also a worker without this service is alive; what the transport says has a source.
+            Ok(Err(status)) => std::error::Error::source(&status).is_none(),
+            Err(_) => false,
+        };
+        Err(CallError::Deadline {
+            seconds,
+            alive: Some(alive),
         })
     }
 
@@ -82,7 +112,10 @@ impl Grpc {
     {
         let answer = call(self.client.clone(), request.clone());
         let answer = unless(&self.interrupt, within(self.limits.answer, answer));
-        let answer = self.runtime.block_on(answer)??;
+        let answer = self.runtime.block_on(async {
+            let answer = answer.await?;
+            self.with_sign_of_life(answer).await
+        })?;
         let failed = |status| self.witness.explain(&self.address, to_error(name, &status));
         let reply = answer.map_err(failed)?;
         let reply = reply.into_inner();

@@ -133,7 +133,8 @@ impl ExchangeStream {
         }
         let limit = self.grpc.limits.answer;
         let end = self.posted_at + limit;
-        unless(&self.grpc.interrupt, until(end, limit, answer)).await?
+        let answer = unless(&self.grpc.interrupt, until(end, limit, answer)).await?;
+        self.grpc.with_sign_of_life(answer).await
     }
 }
 

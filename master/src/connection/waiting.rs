@@ -23,6 +23,7 @@ pub(super) async fn until<T>(
 ) -> Result<T, CallError> {
     let late = |_| CallError::Deadline {
         seconds: limit.as_secs_f64(),
+        alive: None,
     };
     tokio::time::timeout_at(end.into(), answer)
         .await

@@ -22,9 +22,10 @@ mod tableau;
 mod tests;
 mod tolerances;
 
+use linchpin_worker::Cancel;
 use nalgebra::DMatrix;
 
-use super::{Cause, IntegrationError, Ode, Quadrature};
+use super::{Cause, IntegrationError, Ode, Quadrature, check};
 use control::StepControl;
 use differences::Differences;
 use estimate::{Estimate, weighted_norm};
@@ -108,7 +109,7 @@ impl Radau {
     /// Advances `y` over `length` (s) and records the steps.
     ///
     /// # Errors
-    /// [`IntegrationError`] if no step is short enough, or the solution is not finite; `y` is then what was reached.
+    /// [`IntegrationError`] if no step is short enough, the solution is not finite, or it is cancelled; `y` is then what was reached.
     pub fn integrate(
         &mut self,
         ode: &impl Ode,
@@ -133,9 +134,11 @@ impl Radau {
         self.matrices.clear();
         self.stages.restart();
         self.control.restart();
+        let cancel = Cancel::current();
         let mut tau = 0.0;
         let mut jacobian_due = true;
         while tau < length {
+            check(&cancel, tau)?;
             if self.record.steps.len() == MOST_STEPS {
                 let cause = Cause::TooManySteps { limit: MOST_STEPS };
                 return Err(IntegrationError { tau, cause });
@@ -170,7 +173,7 @@ impl Radau {
     /// is the same to the bit.
     ///
     /// # Errors
-    /// [`IntegrationError`] if the solution is not finite.
+    /// [`IntegrationError`] if the solution is not finite, or it is cancelled.
     pub fn replay(&mut self, ode: &impl Ode, y: &mut [f64]) -> Result<(), IntegrationError> {
         self.replay_beside(ode, y, &mut ())
     }
@@ -186,6 +189,7 @@ impl Radau {
         beside: &mut impl Quadrature,
     ) -> Result<(), IntegrationError> {
         self.stages.restart();
+        let cancel = Cancel::current();
         for &RecordedStep {
             tau,
             step,
@@ -193,6 +197,7 @@ impl Radau {
             matrices,
         } in &self.record.steps
         {
+            check(&cancel, tau)?;
             let matrices = self.matrices.get(matrices);
             let attempt = Attempt {
                 tau,

@@ -1,6 +1,8 @@
 //! The classical Runge-Kutta method of order 4 (Kutta 1901).
 
-use super::{Ode, Quadrature};
+use linchpin_worker::Cancel;
+
+use super::{IntegrationError, Ode, Quadrature, check};
 
 /// Integrator with fixed steps; keeps its memory.
 #[derive(Debug, Clone)]
@@ -22,22 +24,38 @@ impl Rk4 {
 
     /// Advances `y` over `length` (s) in `parts` equal steps. The result may be infinite or not a number if the
     /// steps are too long for the equation.
-    pub fn integrate(&mut self, ode: &impl Ode, length: f64, parts: u64, y: &mut [f64]) {
-        self.integrate_beside(ode, (length, parts), y, &mut ());
+    ///
+    /// # Errors
+    /// [`IntegrationError`] if it is cancelled; `y` is then what was reached.
+    pub fn integrate(
+        &mut self,
+        ode: &impl Ode,
+        length: f64,
+        parts: u64,
+        y: &mut [f64],
+    ) -> Result<(), IntegrationError> {
+        self.integrate_beside(ode, (length, parts), y, &mut ())
     }
 
     /// The same, and `beside` with it.
+    ///
+    /// # Errors
+    /// As [`Rk4::integrate`].
     pub fn integrate_beside(
         &mut self,
         ode: &impl Ode,
         (length, parts): (f64, u64),
         y: &mut [f64],
         beside: &mut impl Quadrature,
-    ) {
+    ) -> Result<(), IntegrationError> {
+        let cancel = Cancel::current();
         let step = length / parts as f64;
         for part in 0..parts {
-            self.advance(ode, length * (part as f64 / parts as f64), step, y, beside);
+            let tau = length * (part as f64 / parts as f64);
+            check(&cancel, tau)?;
+            self.advance(ode, tau, step, y, beside);
         }
+        Ok(())
     }
 
     fn advance(

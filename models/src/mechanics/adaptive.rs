@@ -5,8 +5,8 @@ use linchpin_worker::{Interval, StepFailure};
 use super::equation::{Driven, EquationOfMotion};
 use super::integrals::{Integrals, Integrating};
 use super::run::Solver;
-use crate::integrators::IntegrationError;
 use crate::integrators::radau::{Radau, Tolerances};
+use crate::integrators::{Cause, IntegrationError};
 
 /// Radau IIA of order 5. Its memory is the step size that it proposes to go on with.
 #[derive(Debug)]
@@ -115,8 +115,12 @@ impl<E: EquationOfMotion> Solver<E> for Adaptive {
 
 /// A failure of the integrator at its time in the scene.
 pub fn at(interval: Interval, error: IntegrationError) -> StepFailure {
-    StepFailure::Recoverable {
-        t: interval.start + error.tau,
-        message: error.to_string(),
+    let t = interval.start + error.tau;
+    match error.cause {
+        Cause::Cancelled => StepFailure::Cancelled { t },
+        _ => StepFailure::Recoverable {
+            t,
+            message: error.to_string(),
+        },
     }
 }

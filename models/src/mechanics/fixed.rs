@@ -3,6 +3,7 @@
 use linchpin_proto::readable::number;
 use linchpin_worker::{Interval, StepFailure};
 
+use super::adaptive::at;
 use super::equation::{Driven, EquationOfMotion};
 use super::integrals::{Integrals, Integrating};
 use super::run::Solver;
@@ -50,7 +51,8 @@ impl<E: EquationOfMotion> Solver<E> for Fixed {
         };
         let over = (interval.length, parts);
         self.rk4
-            .integrate_beside(ode, over, state.as_mut(), &mut integrating);
+            .integrate_beside(ode, over, state.as_mut(), &mut integrating)
+            .map_err(|error| at(interval, error))?;
         self.steps += parts;
         Ok(())
     }

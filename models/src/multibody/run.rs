@@ -141,7 +141,8 @@ impl Solver {
             }
             Self::Fixed { rk4, step, steps } => {
                 let parts = parts(interval, *step)?;
-                rk4.integrate_beside(ode, (interval.length, parts), state, beside);
+                rk4.integrate_beside(ode, (interval.length, parts), state, beside)
+                    .map_err(|error| at(interval, error))?;
                 *steps += parts;
                 Ok(())
             }

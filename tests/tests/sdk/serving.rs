@@ -6,7 +6,7 @@ use linchpin_master::connection::new_runtime;
 use linchpin_proto::contract::{CallError, Contract};
 use linchpin_proto::v1::worker_client::WorkerClient;
 use linchpin_proto::v1::{self, Severity};
-use linchpin_worker::server::{GRACE, MESSAGE_LIMIT};
+use linchpin_worker::server::{Capacity, GRACE};
 use tokio_stream::StreamExt;
 use tonic::transport::{Channel, Endpoint};
 use tonic_health::pb::health_check_response::ServingStatus;
@@ -101,13 +101,15 @@ fn a_message_above_the_limit_is_refused_and_the_worker_lives() {
             client.initialize(request).await.unwrap_err()
         })
     };
-    let refused = ask(large(MESSAGE_LIMIT));
+    let refused = ask(large(Capacity::default().message));
     assert_eq!(refused.code(), tonic::Code::OutOfRange, "{refused}");
     assert!(
-        refused.message().contains(&MESSAGE_LIMIT.to_string()),
+        refused
+            .message()
+            .contains(&Capacity::default().message.to_string()),
         "{refused}"
     );
-    let understood = ask(large(MESSAGE_LIMIT / 2));
+    let understood = ask(large(Capacity::default().message / 2));
     assert_eq!(understood.code(), tonic::Code::InvalidArgument);
     grpc(&served.address).initialize(&tank(5)).unwrap();
 }

@@ -1,5 +1,6 @@
 //! The place of one instance: who may call it, and how long it waits for that.
 
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError, TryLockError};
 use std::time::{Duration, Instant};
 
@@ -7,7 +8,11 @@ use linchpin_proto::contract::{CallError, Hold, Owner};
 use linchpin_proto::v1::{self, Failure};
 use linchpin_proto::version::knows_leases;
 
+use crate::cancel::{By, Cancel, Flag};
 use crate::instance::Instance;
+
+/// Longest time of a call that is taken for short.
+const SHORT: Duration = Duration::from_millis(1);
 
 /// An instance with what decides about its end.
 pub(super) struct Slot {
@@ -19,6 +24,10 @@ pub(super) struct Slot {
     lease: Option<Duration>,
     /// What holds it or has held it last; empty if it is called without a server.
     holds: Mutex<Vec<Hold>>,
+    /// Raised at its end, which cancels its calls.
+    ended: Flag,
+    /// Bits of the time that its last call with an integration took over that which it simulated; not a number before.
+    pace: AtomicU64,
     occupant: Mutex<Occupant>,
 }
 
@@ -42,6 +51,8 @@ impl Slot {
             began: now,
             lease: knows_leases(request.protocol.as_ref()).then_some(lease),
             holds: Mutex::default(),
+            ended: Flag::default(),
+            pace: AtomicU64::new(f64::NAN.to_bits()),
             occupant: Mutex::new(Occupant {
                 instance,
                 used: now,
@@ -61,9 +72,18 @@ impl Slot {
         self.call(|instance| Ok(self.told(instance)))
     }
 
-    /// Calls the instance.
+    /// Calls the instance for what integrates nothing.
     pub fn call<T>(
         &self,
+        call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
+    ) -> Result<T, Failure> {
+        self.call_over(0.0, call)
+    }
+
+    /// Calls the instance, which simulates `span` (s).
+    pub fn call_over<T>(
+        &self,
+        span: f64,
         call: impl FnOnce(&mut Instance) -> Result<T, Failure>,
     ) -> Result<T, Failure> {
         let mut occupant = self.occupant.lock().map_err(|_| {
@@ -71,9 +91,33 @@ impl Slot {
                 "the solver of this instance panicked in an earlier call; Terminate it and make another",
             )
         })?;
-        let answer = call(&mut occupant.instance);
+        let instance = &mut occupant.instance;
+        let (began, before) = (Instant::now(), instance.sequence());
+        let answer = Cancel::within(By::Instance, &self.ended, || call(instance));
         occupant.used = Instant::now();
+        // Calls that are cancelled or answered from memory do not tell.
+        if span > 0.0 && answer.is_ok() && occupant.instance.sequence() != before {
+            let pace = (occupant.used - began).as_secs_f64() / span;
+            self.pace.store(pace.to_bits(), Ordering::Relaxed);
+        }
         answer
+    }
+
+    /// Whether a call over `span` (s) presumably takes no longer than [`SHORT`], at the pace of the last one.
+    pub fn is_short(&self, span: f64) -> bool {
+        let pace = f64::from_bits(self.pace.load(Ordering::Relaxed));
+        let is_free = !matches!(self.occupant.try_lock(), Err(TryLockError::WouldBlock));
+        is_free && (span == 0.0 || pace * span <= SHORT.as_secs_f64())
+    }
+
+    /// Cancels the call under way and those that wait for it: the instance is no longer there.
+    pub fn end(&self) {
+        self.ended.raise();
+    }
+
+    /// Whether [`Slot::end`] was called.
+    pub fn has_ended(&self) -> bool {
+        self.ended.is_raised()
     }
 
     /// The answer to an Initialize that is repeated.

@@ -310,6 +310,7 @@ fn tell(failure: StepFailure, t: f64, step: f64) -> Failure {
     match &failure {
         StepFailure::Recoverable { t, .. } => Failure::recoverable(*t, step, failure.to_string()),
         StepFailure::NotOffered { .. } => Failure::misuse("directions", failure.to_string()),
+        StepFailure::Cancelled { .. } => Failure::fatal(failure.to_string()),
         StepFailure::Fatal { message } => Failure {
             t: Some(t),
             step: Some(step),

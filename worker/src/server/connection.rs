@@ -8,6 +8,8 @@ use linchpin_proto::contract::{Hold, Owner};
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use tonic::transport::server::Connected;
 
+use crate::cancel::Flag;
+
 /// A connection with the [`Caller`] at its other end; calls find that among their extensions.
 pub(super) struct Connection<C> {
     bytes: C,
@@ -19,6 +21,8 @@ pub(super) struct Connection<C> {
 pub(super) struct Caller {
     /// The connection, which holds instances.
     pub hold: Hold,
+    /// Raised at its end.
+    pub gone: Flag,
     /// Who calls, where certificates are shown.
     pub owner: Option<Owner>,
 }
@@ -28,7 +32,11 @@ impl<C> Connection<C> {
         let hold = Hold::connection();
         Self {
             bytes,
-            caller: Caller { hold, owner },
+            caller: Caller {
+                hold,
+                gone: Flag::default(),
+                owner,
+            },
         }
     }
 }
@@ -36,6 +44,7 @@ impl<C> Connection<C> {
 impl<C> Drop for Connection<C> {
     fn drop(&mut self) {
         self.caller.hold.end();
+        self.caller.gone.raise();
     }
 }
 

@@ -4,9 +4,11 @@ use std::error::Error;
 use std::sync::Arc;
 
 use linchpin_proto::v1;
-use linchpin_worker::server::{Address, Reach, Server};
+use linchpin_worker::server::{Address, Reach, Server, runtime};
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Host, Inputs, Interval, Model, Setup, Snapshot, StepFailure, Subsystem};
+use linchpin_worker::{
+    Cancel, Host, Inputs, Interval, Model, Setup, Snapshot, StepFailure, Subsystem,
+};
 
 /// Longest internal step in s.
 const INTERNAL_STEP: f64 = 1e-3;
@@ -23,8 +25,11 @@ impl Subsystem for Mine {
     fn step(&mut self, interval: Interval, inputs: &Inputs) -> Result<(), StepFailure> {
         let steps = (interval.length / INTERNAL_STEP).ceil().max(1.0);
         let h = interval.length / steps;
+        let cancel = Cancel::current();
         for number in 0..steps as u64 {
             let start = number as f64 * h;
+            // Nobody may wait for a long step any more.
+            cancel.check(interval.start + start)?;
             let f = |tau: f64| inputs.value(0, tau);
             let (first, middle, last) = (f(start), f(start + h / 2.0), f(start + h));
             self.x += h * self.v + h * h / 6.0 * (first + 2.0 * middle) / self.m;
@@ -133,8 +138,11 @@ fn parameter(name: &str, unit: &str, description: &str, default: Option<f64>) ->
 }
 
 /// Serves at the address behind `--listen`, which the master gives, until it is ended.
-#[tokio::main(flavor = "current_thread")]
-async fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
+    runtime(1)?.block_on(serve())
+}
+
+async fn serve() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args().skip_while(|own| own != "--listen").skip(1);
     let address: Address = arguments.next().unwrap_or("127.0.0.1:0".into()).parse()?;
     let host = Arc::new(Host::new(vec![Box::new(Masses)]));

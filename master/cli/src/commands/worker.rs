@@ -11,7 +11,7 @@ use linchpin_proto::certificates::Certificates;
 use linchpin_proto::token::Token;
 use linchpin_worker::Model;
 use linchpin_worker::host::{Host, Limits};
-use linchpin_worker::server::{Address, Reach, Server};
+use linchpin_worker::server::{self, Address, Capacity, Reach, Server};
 use tokio::sync::oneshot;
 
 use super::CommandError;
@@ -45,7 +45,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     token: Option<PathBuf>,
 
-    /// Threads; with more than one, health is answered during long steps, and instances compute at the same time
+    /// Threads that compute: so many instances at the same time. Others answer what needs no solver, such as health, also during long steps
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: u16,
 
@@ -53,8 +53,28 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = Limits::default().instances as u32, value_parser = clap::value_parser!(u32).range(1..))]
     max_instances: u32,
 
+    /// Most snapshots that an instance keeps
+    #[arg(long, value_name = "N", default_value_t = Limits::default().snapshots as u32, value_parser = clap::value_parser!(u32).range(1..))]
+    max_snapshots: u32,
+
+    /// Most calls that wait while others compute; those beyond are refused
+    #[arg(long, value_name = "N", default_value_t = Capacity::default().waiting as u32, value_parser = clap::value_parser!(u32).range(1..))]
+    max_waiting: u32,
+
+    /// Most calls and streams of one connection at a time; those beyond wait at the master
+    #[arg(long, value_name = "N", default_value_t = Capacity::default().calls, value_parser = clap::value_parser!(u32).range(1..))]
+    max_calls: u32,
+
+    /// Largest message in MiB; the exchanges of a scene have less by far
+    #[arg(long, value_name = "MIB", default_value_t = (Capacity::default().message >> 20) as u32, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    max_message: u32,
+
+    /// Time in s after whose last call an instance gives way to another one when the worker is full
+    #[arg(long, value_name = "S", default_value_t = Limits::default().idle.as_secs_f64(), value_parser = seconds)]
+    idle: f64,
+
     /// Time in s that an instance waits for another call when the stream or the connections that held it have ended; then it ends
-    #[arg(long, value_name = "S", default_value_t = Limits::default().lease.as_secs_f64(), value_parser = lease)]
+    #[arg(long, value_name = "S", default_value_t = Limits::default().lease.as_secs_f64(), value_parser = seconds)]
     lease: f64,
 
     /// End when the standard input is closed, as a master does that started this worker
@@ -62,7 +82,7 @@ pub struct Arguments {
     exit_with_stdin: bool,
 }
 
-fn lease(text: &str) -> Result<f64, String> {
+fn seconds(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(seconds) if (0.0..=1e6).contains(&seconds) => Ok(seconds),
         _ => Err("it must be a number of seconds from 0 to 1e6".into()),
@@ -71,24 +91,19 @@ fn lease(text: &str) -> Result<f64, String> {
 
 /// Serves until SIGTERM, Ctrl-C or, if asked, the end of the standard input.
 pub fn execute(arguments: &Arguments) -> Result<(), CommandError> {
-    let runtime = match arguments.threads {
-        // One thread wakes up faster than two that share the work.
-        1 => tokio::runtime::Builder::new_current_thread()
-            .enable_all()
-            .build()?,
-        threads => tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(threads.into())
-            .enable_all()
-            .build()?,
-    };
-    runtime.block_on(serve(arguments))
+    let runtime = server::runtime(arguments.threads.into())?;
+    let served = runtime.block_on(serve(arguments));
+    // A solver that does not look whether it is cancelled ends with the process.
+    runtime.shutdown_background();
+    served
 }
 
 async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
     let limits = Limits {
         instances: arguments.max_instances as usize,
+        snapshots: arguments.max_snapshots as usize,
+        idle: Duration::from_secs_f64(arguments.idle),
         lease: Duration::from_secs_f64(arguments.lease),
-        ..Limits::default()
     };
     let models: Vec<Box<dyn Model>> = match &arguments.fmu {
         Some(path) => vec![Box::new(Fmu::load(path)?)],
@@ -101,7 +116,14 @@ async fn serve(arguments: &Arguments) -> Result<(), CommandError> {
         None => Reach::Local,
     };
     let token = arguments.token.as_deref().map(Token::read).transpose()?;
-    let mut server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    let capacity = Capacity {
+        threads: arguments.threads.into(),
+        waiting: arguments.max_waiting as usize,
+        message: (arguments.max_message as usize) << 20,
+        calls: arguments.max_calls,
+    };
+    let server = Server::bind(host, arguments.listen.clone(), reach).await?;
+    let mut server = server.with_capacity(capacity);
     if let Some(token) = token {
         server = server.demanding(token);
     }

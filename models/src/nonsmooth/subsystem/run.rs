@@ -5,7 +5,9 @@ use std::sync::Arc;
 use linchpin_proto::polynomial::Polynomial;
 use linchpin_proto::v1;
 use linchpin_worker::setup::SetupError;
-use linchpin_worker::{Impact, Impacts, Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem};
+use linchpin_worker::{
+    Cancel, Impact, Impacts, Inputs, Interval, Setup, Snapshot, StepFailure, Subsystem,
+};
 
 use super::collided::{Collided, Pace};
 use super::face::{Face, Output};
@@ -139,9 +141,11 @@ impl Run {
         self.begin_inputs(drive)?;
         let mut first_impact = None;
         self.impulses.fill(0.0);
+        let cancel = Cancel::current();
         for part in 0..parts {
             // Not added up, so that the last step ends where the interval does.
             self.integrator.state.tau = interval.length * (part as f64 / parts as f64);
+            cancel.check(interval.start + self.integrator.state.tau)?;
             let end = interval.length * ((part + 1) as f64 / parts as f64);
             let impacts = self.integrator.log.impacts;
             let collisions = self.collided.in_step(part as usize, end);

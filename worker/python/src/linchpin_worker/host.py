@@ -120,7 +120,9 @@ class Host:
     def terminate(self, request: pb.TerminateRequest) -> pb.TerminateReply:
         """Ends an instance, if it is there."""
         with self._lock:
-            self._slots.pop(request.instance, None)
+            slot = self._slots.pop(request.instance, None)
+        if slot is not None:
+            slot.end()
         return pb.TerminateReply(instance=request.instance)
 
     def list_instances(self, request: pb.ListInstancesRequest, owner: bytes | None = None) -> pb.ListInstancesReply:

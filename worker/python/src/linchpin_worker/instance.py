@@ -7,6 +7,7 @@ from time import perf_counter_ns
 from typing import Any, TypeVar
 
 from ._contract import worker_pb2 as pb
+from .cancel import is_cancelled
 from .description import Description
 from .exchange import exchange
 from .exported import opened, sealed
@@ -162,12 +163,17 @@ class Instance:
         if request.sequence == self._sequence:
             self._check_repeated(call, request)
         elif request.sequence == following:
+            before = self._sequence, self._asked, self._call, self._answer
             self._sequence, self._asked, self._call = following, request, call
             self._answer = fatal(f"{call} number {following} did not come to an end")
             try:
                 self._answer = act()
             except CallFailed as failed:
                 self._answer = failed
+                if is_cancelled():
+                    # The same request may come again.
+                    self._sequence, self._asked, self._call, self._answer = before
+                    raise
         else:
             came = f"sequence number {request.sequence} came after {self._sequence}"
             raise misuse("sequence", f"{came}; the next one is {following}")

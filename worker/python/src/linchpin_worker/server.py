@@ -13,6 +13,7 @@ from typing import Any
 
 import grpc
 
+from . import cancel
 from ._contract import wire_pb2
 from ._contract import worker_pb2 as pb
 from .address import Address, ListenError
@@ -25,8 +26,8 @@ from .status import abort
 MESSAGE_LIMIT = 16 << 20
 """Largest message that is accepted, in bytes."""
 
-GRACE = 2.0
-"""s that calls under way have to finish after a shutdown."""
+GRACE = 0.5
+"""s that calls under way have to finish after a shutdown; then they are cancelled."""
 
 TIDY = 0.5
 """s between two looks for instances whose lease is over."""
@@ -121,9 +122,10 @@ class Server:
         try:
             if names_instance:
                 self._host.check_owner(request.instance, owner)
-            if call in (Host.initialize, Host.list_instances):
-                return call(self._host, request, owner)
-            return call(self._host, request)
+            with cancel.within(lambda: not context.is_active()):
+                if call in (Host.initialize, Host.list_instances):
+                    return call(self._host, request, owner)
+                return call(self._host, request)
         except Denied as failed:
             names_instance = False
             return abort(context, failed)
@@ -144,7 +146,9 @@ class Server:
                 if held != request.instance:
                     self._host.hold(request.instance, stream)
                     held = request.instance
-                yield self._host.exchange(request)
+                with cancel.within(lambda: not context.is_active()):
+                    reply = self._host.exchange(request)
+                yield reply
             except (NoInstance, Denied) as failed:
                 abort(context, failed)
             except CallFailed as failed:

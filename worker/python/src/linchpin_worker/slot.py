@@ -7,6 +7,7 @@ from collections.abc import Callable
 from time import monotonic
 from typing import TypeVar
 
+from . import cancel
 from ._contract import worker_pb2 as pb
 from .failures import misuse
 from .hold import Hold
@@ -30,6 +31,7 @@ class Slot:
         self._calling = threading.Lock()
         self._holding = threading.Lock()
         self._holds: list[Hold] = []
+        self._ended = threading.Event()
 
     def belongs_to(self, caller: bytes | None) -> bool:
         """Whether a caller may use it: the certificate that made it, or anyone where none was shown."""
@@ -37,11 +39,15 @@ class Slot:
 
     def call(self, call: Callable[[Instance], Answer]) -> Answer:
         """Calls the instance, one call at a time."""
-        with self._calling:
+        with self._calling, cancel.within(self._ended.is_set):
             try:
                 return call(self._instance)
             finally:
                 self._used = monotonic()
+
+    def end(self) -> None:
+        """Cancels the call under way: the instance is no longer there."""
+        self._ended.set()
 
     def initialized(self, request: pb.InitializeRequest) -> pb.InitializeReply:
         """The answer to Initialize, which may be repeated until the next call."""

@@ -9,6 +9,7 @@ from itertools import count
 from typing import TypeVar
 
 from . import readable
+from .cancel import is_cancelled
 from .failures import StepFailed, fatal, recoverable
 from .inputs import Inputs, Values
 from .interval import Interval
@@ -87,6 +88,9 @@ class Solver:
         self._stands_at = NOWHERE
         method = self._subsystem.advance_perturbed if is_repeated else self._subsystem.advance
         guarded(interval, lambda: method(interval.start, interval.length, inputs))
+        if is_cancelled():
+            # It may have ended anywhere.
+            raise fatal("the step was cancelled", interval.start, interval.length)
 
     def begin_cut(self) -> None:
         """A step that is cut is not repeated by one that is not."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
+from .cancel import is_cancelled
 from .description import Description, DescriptionError
 from .inputs import Inputs, Values
 from .setup import Setup
@@ -34,9 +35,19 @@ class Subsystem:
     def advance(self, t: float, step: float, u: Inputs) -> None:
         """Integrates from `t` over `step` (s) under the inputs `u(tau)`, with `tau` from 0 to `step`.
 
-        Raises `StepFailed` if a smaller step may help. What a failed step leaves behind does not matter.
+        Raises `StepFailed` if a smaller step may help. What a failed step leaves behind does not matter. A step that takes long
+        asks `cancelled` now and then, and returns if so.
         """
         raise NotImplementedError
+
+    @staticmethod
+    def cancelled() -> bool:
+        """Whether nobody waits for this step any more: its caller is gone, its instance is ended, or the worker shuts down.
+
+        The step may then end at any place, by `return` or an exception. It has not been, for the instance and its master. To be
+        asked on the thread that the method was called on; it takes some microseconds.
+        """
+        return is_cancelled()
 
     def outputs(self, t: float, u: Values) -> Sequence[float] | Mapping[str, float]:
         """All outputs of the present state at `t` (s), in the order of the description or by their names.
