@@ -259,6 +259,8 @@ fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), Ru
             }
             if outcome.is_unsolved {
                 outcome.verdict = Verdict::Poor;
+            } else if outcome.verdict == Verdict::Poor && policies.of_scene().is_some() {
+                own.note_poor();
             }
             outcome.passes = Passes {
                 is_limited,
