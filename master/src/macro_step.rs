@@ -250,17 +250,17 @@ fn check(run: &mut Run, step: MacroStep, outcome: &mut Outcome) -> Result<(), Ru
                 let fresh = iteration.has_fresh_columns();
                 let missed = own.learn(step, fresh, policies.tolerance());
                 // Where the scene says what is allowed, corrections may miss a part of their aim that is less.
+                let of_scene = missed.of_allowed.filter(|_| policies.of_scene().is_some());
+                outcome.missed = of_scene.map(|missed| if missed > 1.0 { missed } else { 0.0 });
                 outcome.verdict = match missed.of_allowed {
                     Some(missed) if missed > 1.0 => Verdict::Poor,
-                    Some(_) if policies.of_scene().is_some() => outcome.verdict.min(Verdict::Fair),
+                    Some(_) if of_scene.is_some() => outcome.verdict.min(Verdict::Fair),
                     _ => outcome.verdict,
                 };
                 iteration.learn(missed);
             }
             if outcome.is_unsolved {
                 outcome.verdict = Verdict::Poor;
-            } else if outcome.verdict == Verdict::Poor && policies.of_scene().is_some() {
-                own.note_poor();
             }
             outcome.passes = Passes {
                 is_limited,

@@ -33,11 +33,4 @@ impl Correcting<'_> {
             false => own.accept(step, least_pivot),
         }
     }
-
-    /// The step that is taken is poor, as the advance shows.
-    pub fn note_poor(&mut self) {
-        if !self.meets_impacts() {
-            self.own.singular_positions.take_poor();
-        }
-    }
 }

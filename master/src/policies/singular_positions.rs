@@ -107,14 +107,6 @@ impl SingularPositions {
         self.passages.unsolved_steps += 1;
     }
 
-    /// The step that was accepted last is poor. Near a position it is one of those whose error is larger than allowed, and no estimate knows
-    /// by how much.
-    pub fn take_poor(&mut self) {
-        if self.is_near(self.last) {
-            self.take_unsolved();
-        }
-    }
-
     /// What the mechanism has passed so far.
     pub fn passages(&self) -> SingularPassages {
         self.passages

@@ -20,6 +20,8 @@ pub struct Outcome {
     pub has_impact: bool,
     /// Whether it was taken with an error that is larger than allowed, near a singular position.
     pub is_unsolved: bool,
+    /// What its last correction has missed, of what the scene allows, if that is more than it; without a tolerance of the scene unknown.
+    pub missed: Option<f64>,
 }
 
 impl Outcome {
@@ -32,6 +34,7 @@ impl Outcome {
             passes: Passes::default(),
             has_impact: false,
             is_unsolved: false,
+            missed: None,
         }
     }
 }

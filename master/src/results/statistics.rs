@@ -76,6 +76,8 @@ pub struct Corrections {
     pub limited: u64,
     /// Macro steps with an impact that partners at joints took part in.
     pub steps_with_impacts: u64,
+    /// What the corrections of poor steps have missed together, of what the scene allows for one step; absent without its tolerance.
+    pub missed: Option<f64>,
 }
 
 impl Corrections {
@@ -310,6 +312,9 @@ impl Statistics {
         self.time_solving += outcome.solving.as_secs_f64();
         self.corrections.count(&outcome.passes);
         self.corrections.steps_with_impacts += u64::from(outcome.has_impact);
+        if let Some(missed) = outcome.missed {
+            *self.corrections.missed.get_or_insert_default() += missed;
+        }
         if degrees != StepDegrees::default() {
             self.degrees.get_or_insert_default().count(degrees);
         }

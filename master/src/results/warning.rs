@@ -6,8 +6,11 @@ use super::redundancy::Redundancy;
 use super::singular_passages::SingularPassages;
 use super::statistics::Statistics;
 
-/// Share of the macro steps that may be poor.
+/// Share of the macro steps that may be poor, where a scene does not say what is allowed.
 const MOST_POOR: f64 = 0.01;
+
+/// What the corrections of poor steps may miss together, of what the scene allows for one step: a run may be off by as much.
+const MOST_MISSED: f64 = 10.0;
 
 /// The largest error of one macro step that is not worth a word, as a share of the motion.
 const OF_STEP: f64 = 0.01;
@@ -31,6 +34,8 @@ pub enum Warning {
         steps: u64,
         /// Of so many.
         of: u64,
+        /// By how much together, of what the scene allows for one step, where it does.
+        missed: Option<f64>,
     },
     /// A macro step is estimated to be off by much.
     ErrorOfStep {
@@ -67,8 +72,13 @@ impl Statistics {
             warnings.push(Warning::Singular(singular));
         }
         let (steps, of) = (self.verdicts.poor, self.macro_steps);
-        if steps as f64 > MOST_POOR * of as f64 {
-            warnings.push(Warning::Poor { steps, of });
+        let missed = self.corrections.missed;
+        let is_much = match missed {
+            Some(missed) => missed > MOST_MISSED,
+            None => steps as f64 > MOST_POOR * of as f64,
+        };
+        if is_much {
+            warnings.push(Warning::Poor { steps, of, missed });
         }
         let Some(errors) = &self.estimated_errors else {
             return warnings;
@@ -148,7 +158,20 @@ impl fmt::Display for Warning {
                     ),
                 }
             }
-            Self::Poor { steps, of } => write!(
+            Self::Poor {
+                steps,
+                of,
+                missed: Some(missed),
+            } => write!(
+                f,
+                "{steps} of {of} macro steps are poor: their corrections missed their aim, together by {missed:.1e} times what \
+                 coupling.tolerance allows for one step; choose a smaller coupling.greatest_step, or another coupling.degree"
+            ),
+            Self::Poor {
+                steps,
+                of,
+                missed: None,
+            } => write!(
                 f,
                 "{steps} of {of} macro steps are poor: their corrections missed their aim, so that results there are not to be \
                  trusted; choose a shorter coupling.macro_step, a coupling.tolerance, or coupling.iterations"
@@ -212,6 +235,23 @@ mod tests {
             }),
             ..Statistics::default()
         }
+    }
+
+    #[test]
+    fn where_a_scene_says_what_is_allowed_poor_steps_count_by_what_they_miss() {
+        let told = |poor: u64, missed: f64| {
+            let mut statistics = statistics(poor, None);
+            statistics.corrections.missed = Some(missed);
+            let texts = statistics.warnings().into_iter();
+            texts.map(|one| one.to_string()).collect::<Vec<_>>()
+        };
+        assert!(told(300, 9.0).is_empty());
+        let texts = told(1, 1.5e3);
+        assert_eq!(texts.len(), 1);
+        assert!(
+            texts[0].contains("1 of 1000") && texts[0].contains("1.5e3 times"),
+            "{texts:?}"
+        );
     }
 
     #[test]

@@ -51,21 +51,22 @@ impl Reference {
     }
 
     fn of(mechanism: Mechanism) -> Option<Self> {
-        let motions = |turned: f64| {
-            let scene = with_settings(&mechanism.monolith(turned), "", &[]);
+        let motions = |mechanism: &Mechanism| {
+            let scene = with_settings(&mechanism.monolith(), "", &[]);
             let found = run(&scene, Place::InProcess);
             let columns = mechanism.columns("all.link", "-");
             let of = |names: [String; 3]| names.map(|name| found.column(&name));
             columns.into_iter().map(of).collect::<Vec<_>>()
         };
-        let [own, turned] = [0.0, DISTURBANCE].map(motions);
+        let own = motions(&mechanism);
+        let disturbed = motions(&mechanism.disturbed(DISTURBANCE));
         let positions = || own.iter().map(|[x, ..]| x);
         let size = positions()
             .flatten()
             .fold(0.0, |size: f64, x| size.max(x.abs()));
         let displacement = |x: &Vec<f64>| difference(x.iter().map(|own| [*own, x[0]]));
-        let apart = positions().zip(&turned).map(|(x, [turned, ..])| {
-            difference(x.iter().zip(turned).map(|(x, turned)| [*x, *turned]))
+        let apart = positions().zip(&disturbed).map(|(x, [disturbed, ..])| {
+            difference(x.iter().zip(disturbed).map(|(x, other)| [*x, *other]))
         });
         let growth = apart.fold(0.0, f64::max) / (DISTURBANCE * size);
         let motion = positions().map(displacement).fold(0.0, f64::max);

@@ -75,25 +75,37 @@ fn ring() -> impl Strategy<Value = Mechanism> {
     let corner = |x: f64, y: f64| (x - 0.3..x + 0.3, y - 0.3..y + 0.3);
     let corners = (corner(0.9, -0.4), corner(0.4, -1.4), corner(-0.7, -0.8));
     (corners, [weight(), weight(), weight(), weight()]).prop_map(|((a, b, c), weights)| {
-        let points = [(0.0, 0.0), a, b, c, (0.0, 0.0)];
-        let links = points.windows(2).zip(weights).enumerate();
-        let links = links.map(|(number, (ends, (m, share)))| {
-            let (x, y) = (ends[1].0 - ends[0].0, ends[1].1 - ends[0].1);
-            let length = x.hypot(y);
-            Link {
+        let mut links = Vec::new();
+        for (number, (m, share)) in weights.into_iter().enumerate() {
+            links.push(Link {
                 parent: number.checked_sub(1),
                 m,
-                inertia: share * m * length * length / 12.0,
-                length,
-                angle: y.atan2(x),
+                inertia: share,
+                length: 0.0,
+                angle: 0.0,
                 rate: 0.0,
-            }
-        });
+            });
+        }
+        lay(&mut links, &[a, b, c]);
+        for link in &mut links {
+            link.inertia *= link.m * link.length * link.length / 12.0;
+        }
         Mechanism {
-            links: links.collect(),
+            links,
             is_ring: true,
         }
     })
+}
+
+/// Gives the links of a ring the lengths and angles that lead from the origin over these corners back to it.
+fn lay(links: &mut [Link], corners: &[(f64, f64)]) {
+    let mut start = (0.0, 0.0);
+    let ends = corners.iter().chain([&(0.0, 0.0)]);
+    for (link, &end) in links.iter_mut().zip(ends) {
+        let (x, y) = (end.0 - start.0, end.1 - start.1);
+        (link.length, link.angle) = (x.hypot(y), y.atan2(x));
+        start = end;
+    }
 }
 
 impl Mechanism {
@@ -107,6 +119,25 @@ impl Mechanism {
             .iter()
             .fold(0.0, |fastest: f64, link| fastest.max(link.rate.abs()));
         swing.min(1.0 / fastest.max(1e-9))
+    }
+
+    /// The same with other angles at the start, one more and one less by `by` (rad, and m of the corners of a ring).
+    pub fn disturbed(&self, by: f64) -> Self {
+        let sign = |number: usize| if number.is_multiple_of(2) { by } else { -by };
+        let mut disturbed = self.clone();
+        if self.is_ring {
+            let corners = self.ends().into_iter().enumerate();
+            let corners = corners.map(|(number, [_, [x, y, ..]])| (x + sign(number), y));
+            lay(
+                &mut disturbed.links,
+                &corners.take(self.links.len() - 1).collect::<Vec<_>>(),
+            );
+        } else {
+            for (number, link) in disturbed.links.iter_mut().enumerate() {
+                link.angle += sign(number);
+            }
+        }
+        disturbed
     }
 
     /// Position and velocity of the start and the end of every link at the start.
@@ -158,8 +189,8 @@ impl Mechanism {
         text + &self.output("link", ".")
     }
 
-    /// The same as one system in one solver; `turned` by a little at the start, about the origin.
-    pub fn monolith(&self, turned: f64) -> String {
+    /// The same as one system in one solver.
+    pub fn monolith(&self) -> String {
         let mut text = format!(
             "[scene]\nname = \"monolith\"\nt_end = {:?}\n[coupling]\nmacro_step = {:?}\n[[subsystem]]\nname = \"all\"\n\
              model = \"planar-multibody\"\nsolver = {{ kind = \"radau5\", rtol = 1e-12, atol = 1e-12 }}\n\
@@ -168,17 +199,8 @@ impl Mechanism {
             self.time() / SAMPLES,
             if self.is_ring { "absolute" } else { "minimal" },
         );
-        let (sin, cos) = turned.sin_cos();
-        let turn = |[x, y, vx, vy]: [f64; 4]| {
-            [
-                x * cos - y * sin,
-                x * sin + y * cos,
-                vx * cos - vy * sin,
-                vx * sin + vy * cos,
-            ]
-        };
         for (number, (link, [start, _])) in self.links.iter().zip(self.ends()).enumerate() {
-            let [x, y, vx, vy] = turn(at(&start, link, link.length / 2.0));
+            let [x, y, vx, vy] = at(&start, link, link.length / 2.0);
             let Link {
                 m,
                 inertia,
@@ -187,8 +209,7 @@ impl Mechanism {
                 rate,
                 ..
             } = link;
-            let angle = angle + turned;
-            let [px, py, ..] = turn(start);
+            let [px, py, ..] = start;
             let parent = link
                 .parent
                 .map_or("ground".to_owned(), |parent| format!("link{parent}"));
