@@ -251,10 +251,13 @@ fn a_stream_that_ends_cancels_its_turn() {
 fn a_connection_that_ends_frees_the_instance() {
     let house = House::new();
     let mut client = house.connect();
-    let long = house.runtime.block_on(async {
-        client.initialize(initialize()).await.unwrap();
-        tokio::spawn(async move { client.perturbed_step(long_look(1)).await })
-    });
+    house
+        .runtime
+        .block_on(client.initialize(initialize()))
+        .unwrap();
+    let long = house
+        .runtime
+        .spawn(async move { client.perturbed_step(long_look(1)).await });
     std::thread::sleep(MOMENT);
     long.abort();
     let began = Instant::now();

@@ -25,7 +25,9 @@ pub fn second_rate<T>(points: &[T], step: f64, value: impl Fn(&T) -> f64) -> f64
 pub fn assert_limit_of_rk4(ode: &impl Ode, start: &[f64], length: f64, end: &[f64]) {
     let errors = [1000, 2000, 4000].map(|parts| {
         let mut state = start.to_vec();
-        Rk4::new(start.len()).integrate(ode, length, parts, &mut state);
+        Rk4::new(start.len())
+            .integrate(ode, length, parts, &mut state)
+            .unwrap();
         difference(&state, end)
     });
     println!("errors of Runge-Kutta {errors:?}");
