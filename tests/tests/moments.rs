@@ -35,15 +35,13 @@ fn errors_at_a_long_macro_step() {
     for (degree, most) in [(2, 1.2e-4), (3, 1.2e-6), (4, 7e-9), (5, 3e-11)] {
         let trajectory = run(&scene(&format!("degree={degree}"), 5e-2), Place::InProcess);
         let (times, found) = (trajectory.column("t"), trajectory.column("mass1.x"));
-        // Both masses as one of 3 kg on 2000 N/m and 20 N s/m, with 100 m/s at the start.
         let decay = 20.0 / 6.0;
         let omega = (2000.0_f64 / 3.0 - decay * decay).sqrt();
-        let position = |t: f64| 100.0 / omega * (-decay * t).exp() * (omega * t).sin();
-        let amplitude = position((omega / decay).atan() / omega);
+        let amplitude = common_position((omega / decay).atan() / omega);
         let off = times
             .iter()
             .zip(&found)
-            .map(|(&t, x)| (x - position(t)).abs());
+            .map(|(&t, x)| (x - common_position(t)).abs());
         let error = off.fold(0.0, f64::max) / amplitude;
         println!("degree {degree}: {error:e}");
         assert!(error < most, "degree {degree}: {error:e}");
@@ -55,6 +53,52 @@ fn errors_at_a_long_macro_step() {
             exchanges.exchanges
         );
     }
+}
+
+/// Inside a step the motion feels the polynomials of the multipliers, which are off by H^(p+1): rows there are of order p + 3, and less
+/// accurate than macro points.
+#[test]
+fn rows_between_macro_points_are_of_lower_order() {
+    for degree in [2, 3, 4] {
+        let [at_points, between] =
+            [0, 1].map(|place| [2.5e-2, 1.25e-2].map(|h| errors_of_rows(degree, h)[place]));
+        let order = |[coarse, fine]: [f64; 2]| (coarse / fine).log2();
+        println!(
+            "degree {degree}: {:.2} {:.2}",
+            order(at_points),
+            order(between)
+        );
+        assert!(
+            (order(between) - (degree + 3) as f64).abs() < 0.2,
+            "degree {degree}: {between:?}"
+        );
+        assert!(
+            between[0] > 2.0 * at_points[0],
+            "degree {degree}: {between:?} {at_points:?}"
+        );
+    }
+}
+
+/// The largest errors of a position at macro points and at quarters of the steps between them, in m.
+fn errors_of_rows(degree: usize, h: f64) -> [f64; 2] {
+    let coupling = format!("method=hermite degree={degree} macro_step={h:e}");
+    let interval = format!("output.interval={:e}", h / 4.0);
+    let scene = oscillator_with(&coupling, &["scene.t_end=0.4", &interval]);
+    let trajectory = run(&scene, Place::InProcess);
+    let (times, found) = (trajectory.column("t"), trajectory.column("mass1.x"));
+    let mut largest = [0.0f64; 2];
+    for (row, (t, x)) in times.into_iter().zip(found).enumerate() {
+        let place = usize::from(!row.is_multiple_of(4));
+        largest[place] = largest[place].max((x - common_position(t)).abs());
+    }
+    largest
+}
+
+/// Both masses as one of 3 kg on 2000 N/m and 20 N s/m, with 100 m/s at the start.
+fn common_position(t: f64) -> f64 {
+    let decay = 20.0 / 6.0;
+    let omega = (2000.0_f64 / 3.0 - decay * decay).sqrt();
+    100.0 / omega * (-decay * t).exp() * (omega * t).sin()
 }
 
 /// Without accelerations: continuous, and always relaxed. With exact subsystems it is stable, as far as 16 instants tell.
