@@ -155,6 +155,8 @@ impl Host {
         instance: Instance,
     ) -> Result<v1::InitializeReply, CallError> {
         self.tidy();
+        // Dropped behind the table, as all that is taken out of it: a solver may be slow to end, and others want the table.
+        let idle;
         let mut instances = self.change_table();
         if let Some(slot) = instances.get(&request.instance).cloned() {
             // The same request was repeated while the first one was still being answered.
@@ -162,7 +164,8 @@ impl Host {
             return slot.initialize_again(request, owner);
         }
         if instances.len() >= self.limits.instances {
-            instances.retain(|_, slot| !slot.is_idle(self.limits.idle));
+            idle = take(&mut instances, |slot| slot.is_idle(self.limits.idle));
+            tracing::debug!(instances = idle.len(), "idle instances give way");
         }
         if instances.len() >= self.limits.instances {
             return Err(Failure::fatal(format!(
@@ -285,7 +288,8 @@ impl Contract for Host {
     }
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
-        if let Some(slot) = self.change_table().remove(&request.instance) {
+        let slot = self.change_table().remove(&request.instance);
+        if let Some(slot) = slot {
             slot.end();
         }
         Ok(v1::TerminateReply::default().to(request))
@@ -327,9 +331,18 @@ impl Contract for Host {
 
     fn tidy(&self) {
         if self.table().values().any(|slot| slot.is_over()) {
-            self.change_table().retain(|_, slot| !slot.is_over());
+            let over = take(&mut self.change_table(), |slot| slot.is_over());
+            drop(over);
         }
     }
+}
+
+/// Takes out the instances that are `gone`.
+fn take(instances: &mut Instances, gone: impl Fn(&Slot) -> bool) -> Vec<Arc<Slot>> {
+    let gone = instances.iter().filter(|(_, slot)| gone(slot));
+    let numbers: Vec<u64> = gone.map(|(&number, _)| number).collect();
+    let taken = numbers.iter().filter_map(|number| instances.remove(number));
+    taken.collect()
 }
 
 fn with_capabilities(mut model: v1::Model) -> v1::Model {
