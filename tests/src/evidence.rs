@@ -123,7 +123,7 @@ pub fn show(page: &str, name: &str, command: &str, table: &str) {
 }
 
 /// A page with another text between `<!-- table: NAME -->` and `<!-- end -->`.
-fn with_table(page: &str, name: &str, text: &str) -> String {
+pub fn with_table(page: &str, name: &str, text: &str) -> String {
     let marker = format!("<!-- table: {name} -->\n");
     let Some((before, rest)) = page.split_once(&marker) else {
         panic!("the page has no {marker}");

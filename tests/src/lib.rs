@@ -23,5 +23,6 @@ pub mod scenes;
 pub mod scripted;
 pub mod spring_pair;
 pub mod tampering;
+pub mod tasks;
 pub mod traces;
 pub mod tuning;

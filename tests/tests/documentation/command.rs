@@ -126,7 +126,7 @@ fn arguments(words: &[String]) -> Option<&[String]> {
 }
 
 /// The words of a line as a shell sees them, without a comment at its end.
-fn words(line: &str) -> Vec<String> {
+pub fn words(line: &str) -> Vec<String> {
     let mut words = Vec::new();
     let mut word: Option<String> = None;
     let mut quote = None;

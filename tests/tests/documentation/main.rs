@@ -13,4 +13,5 @@ mod page;
 mod reference;
 mod schemas;
 mod stations;
+mod tasks;
 mod walk;
