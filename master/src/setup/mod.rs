@@ -4,6 +4,7 @@ mod consistency;
 mod consistent;
 mod degrees;
 mod discover;
+mod fitting;
 mod forward_only;
 mod geometry;
 mod impacts;

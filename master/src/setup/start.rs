@@ -8,7 +8,7 @@ use super::initial::InitialState;
 use super::options::{Connect, Options};
 use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
-use super::{consistent, forward_only, impacts, inside, panels, redundancy, velocities};
+use super::{consistent, fitting, forward_only, impacts, inside, panels, redundancy, velocities};
 use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
@@ -39,9 +39,10 @@ impl CoSimulation {
         for (number, model) in models.iter().enumerate() {
             forward_only::refuse(scene, number, model)?;
         }
-        let joints = mark(scene, &models)?;
-        let connections = connect_signals(scene, &models)?;
-        let scene = &fit(scene, &models, &joints, &connections);
+        let (scene, fitted_joints) = fitting::fit(scene, &models, &mut subsystems)?;
+        let joints = mark(&scene, &models)?;
+        let connections = connect_signals(&scene, &models)?;
+        let scene = &fit(&scene, &models, &joints, &connections);
         let coupled = Coupled {
             subsystems: names(scene),
             forms: load_forms(scene, &models)?,
@@ -60,18 +61,7 @@ impl CoSimulation {
         let mut requests: Vec<_> = (0..subsystems.len())
             .map(|number| initialize_request(scene, number, &models, &layout, &recorded[number]))
             .collect();
-        let mut refusals = Refusals::default();
-        for (number, subsystem) in subsystems.iter_mut().enumerate() {
-            let model = &models[number];
-            let capabilities = model.capabilities.unwrap_or_default();
-            subsystem.repeats_steps = capabilities.repeats_step_sequence;
-            subsystem.offers_derivatives = capabilities.directional_derivatives;
-            subsystem.exports_states = capabilities.exportable_snapshot;
-            if let Err(error) = subsystem.initialize(requests[number].clone()) {
-                refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
-            }
-        }
-        refusals.finish()?;
+        initialize(scene, &models, &requests, &mut subsystems)?;
         for group in &colliding {
             subsystems[group.finder].couples_impacts = true;
         }
@@ -113,6 +103,7 @@ impl CoSimulation {
             .then(|| Mechanism::new(names, &points, &models, &joints, row.columns()));
         let mut statistics = Statistics::new(&run.layout);
         statistics.free_velocities = free_velocities;
+        statistics.fitted_joints = fitted_joints;
         statistics.redundancy = redundancy;
         let mut simulation = Self {
             multipliers: vec![0.0; run.layout.rows.len()],
@@ -232,6 +223,27 @@ fn begin(run: &mut Run) -> Result<(), RunError> {
     Ok(())
 }
 
+/// Starts an instance of every subsystem; mistakes in several of them are told together.
+pub(super) fn initialize(
+    scene: &Scene,
+    models: &[v1::Model],
+    requests: &[v1::InitializeRequest],
+    subsystems: &mut [Subsystem],
+) -> Result<(), RunError> {
+    let mut refusals = Refusals::default();
+    for (number, subsystem) in subsystems.iter_mut().enumerate() {
+        let model = &models[number];
+        let capabilities = model.capabilities.unwrap_or_default();
+        subsystem.repeats_steps = capabilities.repeats_step_sequence;
+        subsystem.offers_derivatives = capabilities.directional_derivatives;
+        subsystem.exports_states = capabilities.exportable_snapshot;
+        if let Err(error) = subsystem.initialize(requests[number].clone()) {
+            refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
+        }
+    }
+    refusals.finish()
+}
+
 /// Asks the worker of every subsystem what the scene's model of it offers; starts no instance.
 pub fn describe(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<v1::Model>, RunError> {
     models_of(scene, &connect_all(scene, connect)?)
@@ -270,7 +282,7 @@ pub(super) fn connect_one(
     Ok(Subsystem::new(&subsystem.name, connection, recovery))
 }
 
-fn names(scene: &Scene) -> Vec<&str> {
+pub(super) fn names(scene: &Scene) -> Vec<&str> {
     let subsystems = scene.subsystems.iter();
     subsystems
         .map(|subsystem| subsystem.name.as_str())
@@ -334,7 +346,7 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
     }
 }
 
-fn initialize_request(
+pub(super) fn initialize_request(
     scene: &Scene,
     number: usize,
     models: &[v1::Model],
