@@ -14,7 +14,7 @@ use super::degrees::load_forms;
 use super::discover::{connect_signals, mark, refuse_marker};
 use super::geometry::{Needs, law_of};
 use super::initial::InitialState;
-use super::start::{initialize, initialize_request, names};
+use super::instances::{initialize, initialize_request, names};
 use crate::error::RunError;
 use crate::joint::{Joint as Law, Level, Motion};
 use crate::layout::{Coupled, Layout, MarkedJoint};

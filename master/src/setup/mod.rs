@@ -10,6 +10,7 @@ mod geometry;
 mod impacts;
 mod initial;
 mod inside;
+mod instances;
 mod options;
 mod panels;
 mod partial;

@@ -5,8 +5,8 @@ use linchpin_proto::v1;
 use super::degrees::{check_degrees, fit, layout_of, load_forms};
 use super::discover::{connect_signals, mark, model_of, record_markers, recorded_outputs};
 use super::initial::InitialState;
+use super::instances::{initialize, initialize_request, names};
 use super::options::{Connect, Options};
-use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
 use super::{consistent, fitting, forward_only, impacts, inside, panels, redundancy, velocities};
 use crate::accuracy::StepErrors;
@@ -223,27 +223,6 @@ fn begin(run: &mut Run) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Starts an instance of every subsystem; mistakes in several of them are told together.
-pub(super) fn initialize(
-    scene: &Scene,
-    models: &[v1::Model],
-    requests: &[v1::InitializeRequest],
-    subsystems: &mut [Subsystem],
-) -> Result<(), RunError> {
-    let mut refusals = Refusals::default();
-    for (number, subsystem) in subsystems.iter_mut().enumerate() {
-        let model = &models[number];
-        let capabilities = model.capabilities.unwrap_or_default();
-        subsystem.repeats_steps = capabilities.repeats_step_sequence;
-        subsystem.offers_derivatives = capabilities.directional_derivatives;
-        subsystem.exports_states = capabilities.exportable_snapshot;
-        if let Err(error) = subsystem.initialize(requests[number].clone()) {
-            refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
-        }
-    }
-    refusals.finish()
-}
-
 /// Asks the worker of every subsystem what the scene's model of it offers; starts no instance.
 pub fn describe(scene: &Scene, connect: &mut Connect<'_>) -> Result<Vec<v1::Model>, RunError> {
     models_of(scene, &connect_all(scene, connect)?)
@@ -280,13 +259,6 @@ pub(super) fn connect_one(
     let (name, model) = (&subsystem.name, &subsystem.model);
     tracing::debug!(subsystem = name, model, "connected");
     Ok(Subsystem::new(&subsystem.name, connection, recovery))
-}
-
-pub(super) fn names(scene: &Scene) -> Vec<&str> {
-    let subsystems = scene.subsystems.iter();
-    subsystems
-        .map(|subsystem| subsystem.name.as_str())
-        .collect()
 }
 
 fn initial_state(
@@ -344,36 +316,6 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
         }
         _ => Ok(()),
     }
-}
-
-pub(super) fn initialize_request(
-    scene: &Scene,
-    number: usize,
-    models: &[v1::Model],
-    layout: &Layout,
-    recorded: &[String],
-) -> v1::InitializeRequest {
-    let written = &scene.subsystems[number];
-    v1::InitializeRequest {
-        model: models[number].name.clone(),
-        parameters: written.parameters.clone(),
-        solver: written.solver.clone(),
-        t_start: scene.t_start,
-        inputs: input_names(layout, number, false),
-        joint_inputs: input_names(layout, number, true),
-        joint_loads: layout.joint_loads[number].clone(),
-        coupling_outputs: layout.outputs[number].clone(),
-        recorded_outputs: recorded.to_vec(),
-        interior_outputs: layout.interior_outputs(number),
-        integrated_outputs: layout.integrated_outputs(number),
-        ..v1::InitializeRequest::default()
-    }
-}
-
-fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<String> {
-    let inputs = layout.inputs_of(number).iter();
-    let inputs = inputs.filter(|input| input.is_joint_input == are_joint_inputs);
-    inputs.map(|input| input.name.clone()).collect()
 }
 
 /// Where steps or degrees vary, the past nodes of the polynomials do: columns that stay in use must serve with any of them. With Hermite coupling there

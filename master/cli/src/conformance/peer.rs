@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
     Access, Connection, Direct, ExchangeStream, ExitMessage, Grpc, Launcher, StartError,
-    TimeLimits, WorkerProcess, new_runtime,
+    TimeLimits, WorkerLogs, WorkerProcess, new_runtime,
 };
 use linchpin_proto::contract::{CallError, Contract};
 use tokio::runtime::Runtime;
@@ -98,7 +98,7 @@ impl Started {
     /// # Errors
     /// [`StartError`]: no such program, or it ends or keeps silent.
     pub fn new(command: &[String], limit: Duration) -> Result<Self, StartError> {
-        let launcher = Launcher::new()?;
+        let launcher = Launcher::new(WorkerLogs::default())?;
         let process = launcher.start(NAME, command)?;
         let at = AtAddress::new(process.address().to_owned(), Access::default(), limit)?;
         let attempt = TimeLimits {
