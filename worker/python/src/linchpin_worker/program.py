@@ -41,7 +41,7 @@ def serve(*models: type[Subsystem], arguments: Sequence[str] | None = None) -> N
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: ends.put(None))
     try:
-        server = Server(host, given.listen, plain_text=given.plain_text, certificates=given.certificates)
+        server = Server(host, given.listen, plain_text=given.plain_text, certificates=given.certificates, token=given.token)
     except ListenError as error:
         sys.exit(f"error: {error}")
     with server:
@@ -66,6 +66,8 @@ def parser(limits: Limits) -> argparse.ArgumentParser:
     either = own.add_mutually_exclusive_group()
     either.add_argument("--certificates", metavar="FOLDER", help=folder)
     either.add_argument("--plain-text", action="store_true", help=reach)
+    secret = "file with a secret that masters must show, for an address that other users of this machine can reach"
+    add("--token", metavar="FILE", help=f"{secret}; only its user may read it")
     most = f"most instances at a time (default {limits.instances})"
     add("--max-instances", metavar="N", type=readable(positive), default=limits.instances, help=most)
     lease = f"time in s that an instance waits for another call when what held it has ended (default {limits.lease:g})"

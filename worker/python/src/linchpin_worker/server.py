@@ -22,6 +22,7 @@ from .failures import CallFailed, Denied, NoInstance
 from .hold import Hold, connection
 from .host import Host
 from .status import abort
+from .token import Demanding, read_token
 
 MESSAGE_LIMIT = 16 << 20
 """Largest message that is accepted, in bytes."""
@@ -55,9 +56,20 @@ UNARY: dict[str, Callable[..., Any]] = {
 class Server:
     """A worker that listens. It serves from the start of a `with` statement to its end."""
 
-    def __init__(self, host: Host, address: Address, plain_text: bool = False, certificates: str | None = None) -> None:
-        """Begins to listen; `ListenError` if that cannot be. With a folder of certificates, masters have to show one."""
+    def __init__(
+        self,
+        host: Host,
+        address: Address,
+        plain_text: bool = False,
+        certificates: str | None = None,
+        token: str | None = None,
+    ) -> None:
+        """Begins to listen; `ListenError` if that cannot be.
+
+        With a folder of certificates, masters have to show one; with the file of a token, that.
+        """
         address.check(plain_text, certificates is not None)
+        interceptors = [Demanding(read_token(token))] if token is not None else []
         secure = credentials(certificates) if certificates is not None else None
         self._host = host
         # A stream keeps its thread until it ends; threads are made as they are needed.
@@ -68,7 +80,7 @@ class Server:
             ("grpc.max_receive_message_length", MESSAGE_LIMIT),
             ("grpc.max_send_message_length", MESSAGE_LIMIT),
         ]
-        self._server = grpc.server(self._threads, options=options)
+        self._server = grpc.server(self._threads, options=options, interceptors=interceptors)
         self._server.add_generic_rpc_handlers((self._worker(), health()))
         # The socket is for the own user alone, whatever the umask was.
         before = os.umask(0o177)
