@@ -130,6 +130,8 @@ class Server:
     def _answer(self, call: Callable[..., Any], request: Any, context: grpc.ServicerContext) -> Any:
         """Answers a unary call; its connection holds the instance that it names, if that is the caller's."""
         owner = owner_of(context)
+        # gRPC forgets it when the call has ended; one that had ended before it came here holds nothing.
+        peer = context.peer()
         names_instance = "instance" in request.DESCRIPTOR.fields_by_name
         try:
             if names_instance:
@@ -144,8 +146,8 @@ class Server:
         except CallFailed as failed:
             return abort(context, failed)
         finally:
-            if names_instance:
-                self._host.hold(request.instance, connection(context.peer(), self.address.path))
+            if names_instance and peer:
+                self._host.hold(request.instance, connection(peer, self.address.path))
 
     def _exchange(self, requests: Iterator[pb.ExchangeRequest], context: grpc.ServicerContext) -> Iterator[pb.ExchangeReply]:
         """The turns of a stream, which holds its instance from the first turn on, and ends where it is not there."""
