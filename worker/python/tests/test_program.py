@@ -158,6 +158,9 @@ class Program(unittest.TestCase):
         for arguments, words in (
             (["--listen", "localhost"], '"localhost" is no address to listen on; write IP:PORT'),
             (["--max-instances", "0"], '"0" must be a whole number of at least 1'),
+            (["--max-message", "0"], '"0" must be a whole number of MiB from 1 to 1024'),
+            (["--max-message", "1025"], '"1025" must be a whole number of MiB from 1 to 1024'),
+            (["--max-message", "all"], '"all" must be a whole number of MiB from 1 to 1024'),
             (["--lease", "-1"], '"-1" must be a number of seconds from 0 to 1e6'),
             (["--lease", "long"], "could not convert string to float: 'long'"),
         ):

@@ -24,9 +24,6 @@ from .host import Host
 from .status import abort
 from .token import Demanding, read_token
 
-MESSAGE_LIMIT = 16 << 20
-"""Largest message that is accepted, in bytes."""
-
 GRACE = 0.5
 """s that calls under way have to finish after a shutdown; then they are cancelled."""
 
@@ -77,8 +74,8 @@ class Server:
         options = [
             # A second worker must not take half of the connections to a port.
             ("grpc.so_reuseport", 0),
-            ("grpc.max_receive_message_length", MESSAGE_LIMIT),
-            ("grpc.max_send_message_length", MESSAGE_LIMIT),
+            ("grpc.max_receive_message_length", host.limits.message),
+            ("grpc.max_send_message_length", host.limits.message),
         ]
         self._server = grpc.server(self._threads, options=options, interceptors=interceptors)
         self._server.add_generic_rpc_handlers((self._worker(), health()))
