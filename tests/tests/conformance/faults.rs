@@ -114,6 +114,8 @@ fn of_protocol() -> Vec<(&'static str, Protocol, &'static str)> {
         (planar, Protocol::TakesAnyNumber, "repeats"),
         (planar, Protocol::SnapshotPerRepeat, "repeats"),
         (planar, Protocol::OneSnapshot, "replay"),
+        (planar, Protocol::ImportsNothing, "exported-states"),
+        (planar, Protocol::ImportsDamaged, "exported-states"),
         (planar, Protocol::TakesUnknownOutputs, "refusals"),
         (planar, Protocol::TakesNaN, "refusals"),
         (planar, Protocol::CutsHighDegrees, "refusals"),
