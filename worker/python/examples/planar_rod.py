@@ -43,7 +43,7 @@ class Rod(Subsystem):
         return fx / self.m, fy / self.m - GRAVITY, sum(moments) / self.inertia
 
     def advance(self, t, step, u):
-        for tau, h, (start, middle, end) in u.stages(dt=5e-4):
+        for tau, h, (start, middle, end) in u.stages(dt=min(5e-4, self.integrals.longest_step(step))):
 
             def slope(after, weight, previous, loads, tau=tau):
                 state = [own + after * rate for own, rate in zip(self.state, previous, strict=True)]

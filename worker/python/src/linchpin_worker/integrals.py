@@ -10,6 +10,9 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 
+LEAST_PARTS = 4
+"""Internal steps of a Runge-Kutta method in a step with integrals."""
+
 
 class Integrals:
     """The integrals that a step is asked for, and what the solver has told of them.
@@ -33,6 +36,13 @@ class Integrals:
         """`L_0, L_1, ..` at a share of the step from 0 to 1, as many as there are integrals of each output."""
         return legendre(share, self._count)
 
+    def longest_step(self, step: float) -> float:
+        """The longest internal step (s) in a step of this length: a quarter of it, since weights vary; without integrals all.
+
+        With weights up to degree 3 the integrals of a method of order 4 are then as good as the motion.
+        """
+        return step / LEAST_PARTS if len(self) > 0 else step
+
     def rates(self, tau: float, outputs: Sequence[float] | Mapping[str, float]) -> list[float]:
         """Rates `q' = y L_i / H` of the integrals at `tau` (s after the start of the step), for solvers with them as unknowns.
 
@@ -52,7 +62,7 @@ class Integrals:
         """Adds one stage of an internal step: `outputs` at `tau` (s after the start of the step), times `weight` (s).
 
         With the nodes and weights of the solver's own method this is what the method gives for the unknowns of `rates`, so the
-        integrals have its order. Weights of higher degree vary within a step: take four internal steps or more.
+        integrals have its order. Internal steps that are longer than `longest_step` are too long for it.
         """
         if len(self) > 0:
             rates = self.rates(tau, outputs)
