@@ -19,6 +19,14 @@ pub trait Peer {
     /// [`StartError`] if the worker does not answer.
     fn connect(&self) -> Result<Box<dyn Connection>, StartError>;
 
+    /// The same worker in a process of its own; `None` where it cannot be started once more from here.
+    ///
+    /// # Errors
+    /// [`StartError`] if it does not answer.
+    fn another_process(&self) -> Result<Option<Box<dyn Peer>>, StartError> {
+        Ok(None)
+    }
+
     /// What its process left behind if it has ended.
     fn last_words(&self) -> ExitMessage {
         ExitMessage::default()
@@ -83,6 +91,8 @@ pub struct Started {
     at: AtAddress,
     process: WorkerProcess,
     _launcher: Launcher,
+    command: Vec<String>,
+    limit: Duration,
 }
 
 /// How long one attempt to reach a starting worker lasts before its process is looked after.
@@ -125,6 +135,8 @@ impl Started {
             at,
             process,
             _launcher: launcher,
+            command: command.to_vec(),
+            limit,
         })
     }
 }
@@ -132,6 +144,10 @@ impl Started {
 impl Peer for Started {
     fn connect(&self) -> Result<Box<dyn Connection>, StartError> {
         self.at.connect()
+    }
+
+    fn another_process(&self) -> Result<Option<Box<dyn Peer>>, StartError> {
+        Ok(Some(Box::new(Self::new(&self.command, self.limit)?)))
     }
 
     fn last_words(&self) -> ExitMessage {
