@@ -19,6 +19,7 @@ from fmpy.fmi2 import (
     fmi2CallbackFreeMemoryTYPE,
 )
 from fmpy.fmi2 import calloc, free
+from fmpy.fmi3 import FMU3Slave, fmi3LogMessageCallback
 from fmpy.validation import validate_fmu
 
 BEFORE, AFTER = 7, 9
@@ -38,36 +39,55 @@ def run(path, step, end, *settings):
 class Slave:
     """An instance that collects what its logger is told."""
 
-    def __init__(self, path, guid=None):
+    def __init__(self, path):
         self.folder = extract(path)
         description = read_model_description(path)
         outputs = [own for own in description.modelVariables if own.causality == "output"]
         self.outputs = [own.valueReference for own in outputs]
         self.told = []
-
-        def log(environment, name, status, category, message):
-            self.told.append(message.decode())
-
-        self.log = log
-        self.callbacks = fmi2CallbackFunctions()
-        self.callbacks.logger = fmi2CallbackLoggerTYPE(log)
-        self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
-        self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
-        self.fmu = FMU2Slave(
-            guid=guid or description.guid,
+        self.is_two = description.fmiVersion == "2.0"
+        kind = FMU2Slave if self.is_two else FMU3Slave
+        self.fmu = kind(
+            guid=description.guid,
             unzipDirectory=self.folder,
             modelIdentifier=description.coSimulation.modelIdentifier,
             instanceName="one",
         )
-        self.fmu.instantiate(callbacks=self.callbacks)
+        if self.is_two:
+            self.callbacks = fmi2CallbackFunctions()
+            self.callbacks.logger = fmi2CallbackLoggerTYPE(self.log_two)
+            self.callbacks.allocateMemory = fmi2CallbackAllocateMemoryTYPE(calloc)
+            self.callbacks.freeMemory = fmi2CallbackFreeMemoryTYPE(free)
+            self.fmu.instantiate(callbacks=self.callbacks)
+        else:
+            self.logger = fmi3LogMessageCallback(self.log_three)
+            self.fmu.instantiate(logMessage=self.logger)
+
+    def log_two(self, environment, name, status, category, message):
+        self.told.append(message.decode())
+
+    def log_three(self, environment, status, category, message):
+        self.told.append(message.decode())
+
+    def set_up(self, t):
+        if self.is_two:
+            self.fmu.setupExperiment(startTime=t)
+            self.fmu.enterInitializationMode()
+        else:
+            self.fmu.enterInitializationMode(startTime=t)
 
     def start(self):
-        self.fmu.setupExperiment(startTime=0.0)
-        self.fmu.enterInitializationMode()
+        self.set_up(0.0)
         self.fmu.exitInitializationMode()
 
+    def get(self, references):
+        return self.fmu.getReal(references) if self.is_two else self.fmu.getFloat64(references)
+
+    def set(self, references, values):
+        (self.fmu.setReal if self.is_two else self.fmu.setFloat64)(references, values)
+
     def values(self):
-        return [value.hex() for value in self.fmu.getReal(self.outputs)]
+        return [value.hex() for value in self.get(self.outputs)]
 
     def steps(self, first, count, step):
         found = []
@@ -125,13 +145,13 @@ def mistakes(path):
 
     slave = Slave(path)
     fails("too early", slave, lambda: slave.fmu.doStep(0.0, 1e-3))
-    fails("start time", slave, lambda: slave.fmu.setupExperiment(startTime=1.0))
+    fails("start time", slave, lambda: slave.set_up(1.0))
     slave.start()
     fails("another time", slave, lambda: slave.fmu.doStep(0.5, 1e-3))
     fails("no step", slave, lambda: slave.fmu.doStep(0.0, 0.0))
     slave.steps(0, 1, 1e-3)
-    fails("too late", slave, lambda: slave.fmu.setReal([len(slave.outputs)], [1.0]))
-    fails("no variable", slave, lambda: slave.fmu.getReal([1000]))
+    fails("too late", slave, lambda: slave.set([len(slave.outputs)], [1.0]))
+    fails("no variable", slave, lambda: slave.get([1000]))
     fails("no state", slave, lambda: slave.fmu.deserializeFMUState(b"nonsense"))
     slave.end()
     return told

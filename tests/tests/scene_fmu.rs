@@ -123,13 +123,15 @@ fn fmpy_has_the_bits_of_the_run() {
         ),
     ] {
         let settings: Vec<&str> = settings.iter().flat_map(|own| ["--set", *own]).collect();
-        let workshop = exported(scene, &settings);
-        let rows = rows(&workshop, &settings);
-        let end = rows.last().unwrap()["t"].to_string();
-        let found = drive(&workshop, &["run", "scene.fmu", step, &end]);
-        let (most, compared) = difference(&found, &rows);
-        assert!(compared > 30, "{compared}");
-        assert!(most == 0.0, "{settings:?}: {most:e}");
+        for fmi in ["2", "3"] {
+            let workshop = exported(scene, &[&settings[..], &["--fmi", fmi]].concat());
+            let rows = rows(&workshop, &settings);
+            let end = rows.last().unwrap()["t"].to_string();
+            let found = drive(&workshop, &["run", "scene.fmu", step, &end]);
+            let (most, compared) = difference(&found, &rows);
+            assert!(compared > 30, "{compared}");
+            assert!(most == 0.0, "FMI {fmi}, {settings:?}: {most:e}");
+        }
     }
 }
 
@@ -149,6 +151,7 @@ fn any_communication_points_keep_the_accuracy() {
     let workshop = exported(
         OSCILLATOR,
         &[
+            &["--fmi", "3"],
             &settings[..],
             &["--output", "mass1.x", "--output", "mass1.v"],
         ]
@@ -175,7 +178,7 @@ fn a_state_goes_on_with_the_same_bits_also_in_another_process() {
             OSCILLATOR,
             &["--set", HERMITE, "--set", "coupling.degree=3"][..],
         ),
-        (DOUBLE_PENDULUM, &[]),
+        (DOUBLE_PENDULUM, &["--fmi", "3"]),
         (LOAD_STEP, &[]),
     ] {
         let workshop = exported(scene, settings);
@@ -195,6 +198,7 @@ fn parameters_are_those_of_the_subsystems() {
     let workshop = exported(
         OSCILLATOR,
         &[
+            &["--fmi", "3"],
             &settings[..],
             &["--parameter", "mass1.c", "--parameter", "mass2.load"],
         ]
@@ -215,9 +219,8 @@ fn parameters_are_those_of_the_subsystems() {
     assert_eq!(difference(&found, &rows).0, 0.0);
     let description = archived(&workshop, "modelDescription.xml");
     assert!(
-        description.contains(
-            "<ScalarVariable name=\"mass1.c\" valueReference=\"5\" causality=\"parameter\""
-        ),
+        description
+            .contains("<Float64 name=\"mass1.c\" valueReference=\"5\" causality=\"parameter\""),
         "{description}"
     );
     assert!(description.contains("unit=\"N/m\""), "{description}");
@@ -236,8 +239,14 @@ fn archived(workshop: &Workshop, name: &str) -> String {
 /// A scene inside a scene.
 #[test]
 fn the_worker_for_fmus_serves_it() {
+    for fmi in ["2", "3"] {
+        serve(fmi);
+    }
+}
+
+fn serve(fmi: &str) {
     let settings = ["--set", "scene.t_end=0.05"];
-    let workshop = exported(OSCILLATOR, &settings);
+    let workshop = exported(OSCILLATOR, &[&settings[..], &["--fmi", fmi]].concat());
     let expected = rows(&workshop, &settings);
     workshop.write(
         "scene.toml",
@@ -261,8 +270,13 @@ fn the_worker_for_fmus_serves_it() {
 
 #[test]
 fn what_an_importer_does_wrong_is_told_by_its_logger() {
-    let workshop = exported(OSCILLATOR, &["--parameter", "mass1.c"]);
-    let told = drive(&workshop, &["mistakes", "scene.fmu"]);
+    for fmi in ["2", "3"] {
+        let workshop = exported(OSCILLATOR, &["--fmi", fmi, "--parameter", "mass1.c"]);
+        assert_told(&drive(&workshop, &["mistakes", "scene.fmu"]));
+    }
+}
+
+fn assert_told(told: &Value) {
     for (call, words) in [
         ("too early", "before the scene is initialised"),
         (

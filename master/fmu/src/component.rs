@@ -129,7 +129,7 @@ impl Component {
         Ok(self.run.insert(run))
     }
 
-    /// Value of an output, or of a parameter.
+    /// Value of an output, of a parameter, or, behind these, the time.
     ///
     /// # Errors
     /// [`ComponentError::NoVariable`], and those of [`Component::start`].
@@ -142,10 +142,12 @@ impl Component {
         if let Some(output) = self.contents.outputs.get(place).cloned() {
             return self.start()?.row().get(&output).ok_or(none);
         }
-        let parameter = place.checked_sub(self.contents.outputs.len());
-        let name = parameter.and_then(|place| self.contents.parameters.get(place));
-        let Some(name) = name else {
-            return Err(none);
+        let parameters = &self.contents.parameters;
+        let place = place - self.contents.outputs.len();
+        let name = match parameters.get(place) {
+            Some(name) => name,
+            None if place == parameters.len() => return Ok(self.t()),
+            None => return Err(none),
         };
         let found = find_parameter(&self.scene, name);
         found
@@ -174,6 +176,13 @@ impl Component {
         // The scene starts anew with it.
         self.run = None;
         Ok(())
+    }
+
+    /// The time at which it stands, s.
+    pub fn t(&self) -> f64 {
+        self.run
+            .as_ref()
+            .map_or(self.scene.t_start, CoSimulation::t)
     }
 
     /// Goes on from `t` by `step` (both in s).

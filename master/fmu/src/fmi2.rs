@@ -3,36 +3,28 @@
 //! An instance is a [`Component`] with the callbacks of its importer. What fails is told by the logger, with the status Error; no panic leaves a
 //! function: it is the status Fatal.
 
-#![allow(
-    unsafe_code,
-    non_snake_case,
-    clippy::missing_safety_doc,
-    reason = "functions of the C interface of FMI; the importer keeps to the standard"
-)]
-
-mod instance;
 mod others;
-mod states;
 
 use std::ffi::{c_char, c_int, c_void};
 
-pub use instance::{Callbacks, Instance};
 pub use others::*;
-pub use states::*;
 
-use instance::{guarded, text};
-
-/// `fmi2Status`.
-pub type Status = c_int;
-/// The call has done what it should.
-pub const OK: Status = 0;
-/// It has failed; the instance can go on from a state that was taken before, or be reset.
-pub const ERROR: Status = 3;
-/// The instance is lost.
-pub const FATAL: Status = 4;
+use crate::instance::{Instance, Logger, Logger2, Status, end, get, guarded, set, text};
+use crate::states;
 
 /// `fmi2Boolean`.
 pub type Boolean = c_int;
+
+/// `fmi2CallbackFunctions`.
+#[repr(C)]
+#[derive(Debug, Clone, Copy)]
+pub struct Callbacks {
+    logger: Option<Logger2>,
+    allocate: *const c_void,
+    free: *const c_void,
+    step_finished: *const c_void,
+    environment: *mut c_void,
+}
 
 /// Version of the standard.
 #[unsafe(no_mangle)]
@@ -58,23 +50,23 @@ pub unsafe extern "C" fn fmi2Instantiate(
     _logging: Boolean,
 ) -> *mut c_void {
     const CO_SIMULATION: c_int = 1;
-    // SAFETY: the importer gives texts that end with 0, and callbacks that outlive the instance.
+    // SAFETY: the importer gives texts that end with 0, and callbacks that are there during the call.
     let (name, guid, resources) = unsafe { (text(name), text(guid), text(resources)) };
-    let callbacks = unsafe { callbacks.as_ref() };
-    let instance = Instance::new(&name, &guid, &resources, callbacks, kind == CO_SIMULATION);
-    instance.map_or(std::ptr::null_mut(), |own| {
-        Box::into_raw(Box::new(own)).cast()
-    })
+    let logger = match unsafe { callbacks.as_ref() } {
+        Some(&Callbacks {
+            logger: Some(logger),
+            environment,
+            ..
+        }) => Logger::Two(logger, environment),
+        _ => Logger::None,
+    };
+    Instance::make(&name, &guid, &resources, logger, kind == CO_SIMULATION)
 }
 
 /// Ends an instance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(instance: *mut c_void) {
-    if !instance.is_null() {
-        // SAFETY: it was made by `fmi2Instantiate` and is not used any more.
-        let instance = unsafe { Box::from_raw(instance.cast::<Instance>()) };
-        let _ = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| drop(instance)));
-    }
+    unsafe { end(instance) }
 }
 
 /// The times of the experiment.
@@ -128,15 +120,7 @@ pub unsafe extern "C" fn fmi2GetReal(
     count: usize,
     values: *mut f64,
 ) -> Status {
-    unsafe {
-        guarded(instance, |own| {
-            for place in 0..count {
-                // SAFETY: both arrays have `count` entries.
-                *values.add(place) = own.component.get(*references.add(place))?;
-            }
-            Ok(())
-        })
-    }
+    unsafe { get(instance, references, count, values) }
 }
 
 /// Values for parameters.
@@ -147,16 +131,57 @@ pub unsafe extern "C" fn fmi2SetReal(
     count: usize,
     values: *const f64,
 ) -> Status {
-    unsafe {
-        guarded(instance, |own| {
-            for place in 0..count {
-                // SAFETY: both arrays have `count` entries.
-                own.component
-                    .set(*references.add(place), *values.add(place))?;
-            }
-            Ok(())
-        })
-    }
+    unsafe { set(instance, references, count, values) }
+}
+
+/// Takes the present state; one that is there already is replaced.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> Status {
+    unsafe { states::take(instance, state) }
+}
+
+/// Goes back to a state.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetFMUstate(instance: *mut c_void, state: *mut c_void) -> Status {
+    unsafe { states::give_back(instance, state) }
+}
+
+/// Ends a state, and leaves null in its place.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeFMUstate(_: *mut c_void, state: *mut *mut c_void) -> Status {
+    unsafe { states::end(state) }
+}
+
+/// Bytes that a state takes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
+    instance: *mut c_void,
+    state: *mut c_void,
+    size: *mut usize,
+) -> Status {
+    unsafe { states::size(instance, state, size) }
+}
+
+/// Writes a state as bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SerializeFMUstate(
+    instance: *mut c_void,
+    state: *mut c_void,
+    bytes: *mut u8,
+    size: usize,
+) -> Status {
+    unsafe { states::write(instance, state, bytes, size) }
+}
+
+/// Reads a state from bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+    instance: *mut c_void,
+    bytes: *const u8,
+    size: usize,
+    state: *mut *mut c_void,
+) -> Status {
+    unsafe { states::read(instance, bytes, size, state) }
 }
 
 /// A communication step.

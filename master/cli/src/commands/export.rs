@@ -9,7 +9,7 @@ use linchpin_master::scene::Override;
 use super::CommandError;
 use super::common::{SceneArguments, print};
 use crate::export::bodies::bodies;
-use crate::export::fmu::{Contents, Exported, archive};
+use crate::export::fmu::{Contents, Exported, Version, archive};
 use crate::export::vtk::Series;
 use crate::results::Recorded;
 
@@ -20,12 +20,12 @@ use crate::results::Recorded;
   linchpin export out/four-bar --format vtk
   linchpin export out/four-bar --every 10 --to /tmp/four-bar
   linchpin export scenes/oscillator.toml oscillator.fmu
-  linchpin export scenes/oscillator.toml oscillator.fmu --output mass1.x --parameter mass1.c
+  linchpin export scenes/oscillator.toml oscillator.fmu --fmi 3 --output mass1.x --parameter mass1.c
 
 vtk: markers as points over time, and a line through those of every subsystem, for ParaView: open OUT/vtk/NAME.pvd. The table has the
 markers of joints; with linchpin run --animate it has all of them. Nothing is run.
 
-A scene and the name of a file make an FMU for co-simulation, FMI 2.0: the coupled system, whose built-in models run inside, while other workers are
+A scene and the name of a file make an FMU for co-simulation: the coupled system, whose built-in models run inside, while other workers are
 started or reached as the scene says. Its outputs are the outputs of models and the multipliers among the result columns.")]
 pub struct Arguments {
     /// Folder that linchpin run wrote to, or a scene
@@ -47,6 +47,10 @@ pub struct Arguments {
     /// Folder for the files; made if it does not exist [default: OUT/FORMAT]
     #[arg(long, value_name = "DIR", conflicts_with = "fmu")]
     to: Option<PathBuf>,
+
+    /// Version of FMI of the FMU
+    #[arg(long, value_enum, default_value_t = Version::Two, requires = "fmu")]
+    fmi: Version,
 
     /// A result column that is an output of the FMU; can be given several times [default: all outputs and multipliers]
     #[arg(long, value_name = "COLUMN", requires = "fmu")]
@@ -94,7 +98,7 @@ fn write_fmu(arguments: &Arguments, path: &Path) -> Result<(), CommandError> {
         parameters: arguments.parameter.clone(),
     };
     let exported = Exported::of(contents)?;
-    archive::write(&exported, path)?;
+    archive::write(&exported, arguments.fmi, path)?;
     print(format_args!("{}\n", path.display()))
 }
 

@@ -3,7 +3,8 @@
 
 use std::ffi::{c_char, c_int, c_void};
 
-use super::{Boolean, ERROR, OK, Status};
+use super::Boolean;
+use crate::instance::{ERROR, OK, Status};
 
 /// What is asked for of nothing is done.
 fn of_none(count: usize) -> Status {

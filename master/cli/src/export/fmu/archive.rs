@@ -8,7 +8,7 @@ use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
 use super::contents::FILE;
-use super::description;
+use super::description::Version;
 use super::error::FmuExportError;
 use super::variables::Exported;
 
@@ -19,7 +19,7 @@ const LIBRARY: &str = "liblinchpin_scene.so";
 ///
 /// # Errors
 /// [`FmuExportError::NoLibrary`], [`FmuExportError::Unwritable`].
-pub fn write(exported: &Exported, path: &Path) -> Result<(), FmuExportError> {
+pub fn write(exported: &Exported, version: Version, path: &Path) -> Result<(), FmuExportError> {
     let library = library()?;
     let unwritable = |what: String| FmuExportError::Unwritable {
         path: path.to_owned(),
@@ -28,14 +28,11 @@ pub fn write(exported: &Exported, path: &Path) -> Result<(), FmuExportError> {
     let contents = serde_json::to_vec_pretty(&exported.contents);
     let contents = contents.map_err(|error| unwritable(error.to_string()))?;
     let library = fs::read(library).map_err(|error| unwritable(error.to_string()))?;
-    let description = description::of(exported);
+    let description = version.describe(exported);
     let files = [
         ("modelDescription.xml".to_owned(), description.as_bytes()),
         (format!("resources/{FILE}"), &contents),
-        (
-            format!("binaries/linux64/{}.so", description::IDENTIFIER),
-            &library,
-        ),
+        (version.library(), &library),
     ];
     // A file that is there stays until the new one is whole.
     let unfinished = path.with_extension("fmu.unfinished");

@@ -12,5 +12,6 @@ mod error;
 pub mod variables;
 
 pub use contents::Contents;
+pub use description::Version;
 pub use error::FmuExportError;
 pub use variables::Exported;

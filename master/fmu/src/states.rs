@@ -4,9 +4,8 @@ use std::ffi::c_void;
 
 use linchpin_master::run::checkpoint::Checkpoint;
 
-use super::instance::guarded;
-use super::{OK, Status};
 use crate::component::{ComponentError, from_bytes, to_bytes};
+use crate::instance::{OK, Status, guarded};
 
 /// A state that is none.
 fn no_state() -> ComponentError {
@@ -14,8 +13,7 @@ fn no_state() -> ComponentError {
 }
 
 /// Takes the present state; one that is there already is replaced.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> Status {
+pub(crate) unsafe fn take(instance: *mut c_void, state: *mut *mut c_void) -> Status {
     unsafe {
         guarded(instance, |own| {
             let saved = own.component.save()?;
@@ -31,8 +29,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut
 }
 
 /// Goes back to a state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(instance: *mut c_void, state: *mut c_void) -> Status {
+pub(crate) unsafe fn give_back(instance: *mut c_void, state: *mut c_void) -> Status {
     unsafe {
         guarded(instance, |own| {
             // SAFETY: the importer gives a state of this FMU.
@@ -43,8 +40,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(instance: *mut c_void, state: *mut c_vo
 }
 
 /// Ends a state, and leaves null in its place.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(_: *mut c_void, state: *mut *mut c_void) -> Status {
+pub(crate) unsafe fn end(state: *mut *mut c_void) -> Status {
     // SAFETY: as above; the state is not used any more.
     if let Some(place) = unsafe { state.as_mut() } {
         if !place.is_null() {
@@ -56,12 +52,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(_: *mut c_void, state: *mut *mut c_voi
 }
 
 /// Bytes that a state takes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> Status {
+pub(crate) unsafe fn size(instance: *mut c_void, state: *mut c_void, size: *mut usize) -> Status {
     unsafe {
         guarded(instance, |_| {
             // SAFETY: as above.
@@ -73,8 +64,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 }
 
 /// Writes a state as bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(
+pub(crate) unsafe fn write(
     instance: *mut c_void,
     state: *mut c_void,
     bytes: *mut u8,
@@ -97,8 +87,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 }
 
 /// Reads a state from bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
+pub(crate) unsafe fn read(
     instance: *mut c_void,
     bytes: *const u8,
     size: usize,
