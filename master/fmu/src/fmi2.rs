@@ -1,7 +1,6 @@
 //! The functions of FMI 2.0 for co-simulation (FMI 2.0.5, sections 2.1 and 4.2).
 //!
-//! An instance is a [`Component`] with the callbacks of its importer. What fails is told by the logger, with the status Error; no panic leaves a
-//! function: it is the status Fatal.
+//! An instance is an [`Instance`]; what fails is told by its logger, with the status Error, and a panic is the status Fatal.
 
 mod others;
 
