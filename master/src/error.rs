@@ -40,6 +40,14 @@ pub enum RunError {
         /// What the call said.
         source: Box<CallError>,
     },
+    /// A time that no macro step reaches.
+    #[error("t = {t} s lies behind the end of the scene at {end} s: choose a later scene.t_end", t = time(*t), end = time(*end))]
+    BehindTheEnd {
+        /// The time.
+        t: f64,
+        /// The end.
+        end: f64,
+    },
     /// A worker could not be started or reached.
     #[error("subsystem \"{subsystem}\": {source}")]
     Start {

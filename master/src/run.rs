@@ -3,9 +3,11 @@
 //! * [`crate::macro_step`]: one macro step;
 //! * [`settings`]: the constants that decide about its steps;
 //! * `state`: what a run is at a macro point, as a value;
+//! * `outside`: a run whose times somebody else chooses;
 //! * [`checkpoint`]: the same together with the states of its workers, from which a run goes on.
 
 pub mod checkpoint;
+mod outside;
 pub mod settings;
 mod state;
 

@@ -55,11 +55,17 @@ pub struct Program {
 impl Program {
     /// Starts `script`, which finds its imports in `path`, and waits until it says where it listens.
     pub fn start(script: &Path, path: &Path, socket: &Path) -> Self {
+        Self::start_with(script, path, socket, &[])
+    }
+
+    /// As [`Program::start`], with further arguments.
+    pub fn start_with(script: &Path, path: &Path, socket: &Path, arguments: &[&str]) -> Self {
         let mut command = Command::new(&python().interpreter);
         command
             .arg(script)
             .arg("--listen")
             .arg(format!("unix:{}", socket.display()))
+            .args(arguments)
             .env("PYTHONPATH", path)
             .stdin(Stdio::null())
             .stdout(Stdio::piped());

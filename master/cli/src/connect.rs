@@ -8,7 +8,7 @@ use std::time::Duration;
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
     Access, ConnectOptions, Connection, Direct, Launcher, Reached, Renewable, StartError, Threaded,
-    TimeLimits, UnaryTurns, WorkerProcess, connect, new_runtime, reach_started,
+    TimeLimits, UnaryTurns, WorkerLogs, WorkerProcess, connect, new_runtime, reach_started,
 };
 use linchpin_master::scene::{Calls, Scene, Served, Subsystem};
 use linchpin_models::ground::GROUND;
@@ -33,6 +33,7 @@ pub enum Place {
 pub struct Connector {
     place: Place,
     interrupt: Interrupt,
+    logs: WorkerLogs,
     runtime: OnceLock<Arc<Runtime>>,
     launcher: OnceLock<Arc<Launcher>>,
     access: OnceLock<Access>,
@@ -46,6 +47,7 @@ impl Connector {
         Self {
             place,
             interrupt: Interrupt::default(),
+            logs: WorkerLogs::default(),
             runtime: OnceLock::new(),
             launcher: OnceLock::new(),
             access: OnceLock::new(),
@@ -56,6 +58,11 @@ impl Connector {
     /// Its runs stop at the request of `interrupt`.
     pub fn stopped_by(self, interrupt: Interrupt) -> Self {
         Self { interrupt, ..self }
+    }
+
+    /// What the workers print that it starts goes to `logs`.
+    pub fn logging(self, logs: WorkerLogs) -> Self {
+        Self { logs, ..self }
     }
 
     /// What stops its runs.
@@ -187,7 +194,9 @@ impl Connector {
     }
 
     fn launcher(&self) -> Result<&Arc<Launcher>, StartError> {
-        made(&self.launcher, || Ok(Arc::new(Launcher::new()?)))
+        made(&self.launcher, || {
+            Ok(Arc::new(Launcher::new(self.logs.clone())?))
+        })
     }
 }
 

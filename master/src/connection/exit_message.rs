@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::os::unix::process::ExitStatusExt;
+use std::path::PathBuf;
 use std::process::ExitStatus;
 
 /// How a worker process ended and what it said before.
@@ -9,8 +10,17 @@ use std::process::ExitStatus;
 pub struct ExitMessage {
     /// How it ended; absent if it runs, or if the master did not start it.
     pub status: Option<ExitStatus>,
-    /// Last lines of its error output; empty if there are none.
-    pub error_output: String,
+    /// What it has printed; absent if that is nothing.
+    pub printed: Option<Box<Printed>>,
+}
+
+/// What a worker process has printed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Printed {
+    /// The last lines.
+    pub last: String,
+    /// The file with all of it, if there is one.
+    pub log: Option<PathBuf>,
 }
 
 impl ExitMessage {
@@ -26,12 +36,15 @@ impl fmt::Display for ExitMessage {
         if let Some(status) = &self.status {
             write!(f, "; its process has ended ({status})")?;
         }
-        if self.error_output.is_empty() {
+        let Some(printed) = &self.printed else {
             return Ok(());
+        };
+        f.write_str("\n  last output of the worker")?;
+        if let Some(log) = &printed.log {
+            write!(f, " (all of it: {})", log.display())?;
         }
-        f.write_str("\n  last error output of the worker:")?;
-        self.error_output
-            .lines()
-            .try_for_each(|line| write!(f, "\n    {line}"))
+        f.write_str(":")?;
+        let mut lines = printed.last.lines();
+        lines.try_for_each(|line| write!(f, "\n    {line}"))
     }
 }

@@ -21,8 +21,9 @@ use super::waiting::{unless, within};
 use super::witness::Witness;
 use crate::interrupt::Interrupt;
 
-/// Largest message that is accepted, in bytes.
-const MESSAGE_LIMIT: usize = 16 << 20;
+/// Largest message that is accepted or sent, in bytes: what a worker is told to send with `--max-message` passes, and no worker can fill
+/// the memory of its master by one answer.
+const MESSAGE_LIMIT: usize = 256 << 20;
 
 /// Longest time for the end of an instance: a worker that hangs must not hold up the end of a run.
 const TERMINATE_TIMEOUT: Duration = Duration::from_secs(1);

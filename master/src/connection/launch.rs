@@ -1,18 +1,20 @@
 //! Starting worker processes, and making sure that none outlives its master.
 
 use std::cell::RefCell;
-use std::fs::{File, Permissions};
+use std::collections::BTreeSet;
+use std::fs::Permissions;
 use std::os::unix::fs::PermissionsExt;
 use std::os::unix::process::CommandExt;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Child, Command, ExitStatus, Stdio};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use linchpin_proto::foreign::clean;
 use rustix::process::{Pid, Signal, kill_process_group};
 use tempfile::TempDir;
 
 use super::ExitMessage;
+use super::output::{WorkerLogs, WorkerOutput};
 
 /// Placeholder for the address in a worker's command.
 const ADDRESS: &str = "{address}";
@@ -25,10 +27,6 @@ const EXIT_TIMEOUT: Duration = Duration::from_millis(100);
 
 /// Longest path of a Unix socket in bytes.
 const LONGEST_PATH: usize = 107;
-
-/// Lines of error output that are shown when a worker dies, and bytes of each.
-const LAST_LINES: usize = 6;
-const LONGEST_LINE: usize = 500;
 
 /// Why a worker process could not be started.
 #[derive(Debug, thiserror::Error)]
@@ -54,6 +52,14 @@ pub enum LaunchError {
         /// The path.
         path: PathBuf,
     },
+    /// No pipe or thread for what the worker prints.
+    #[error(
+        "cannot read what the workers print: {source}; see the limits of open files and processes (`ulimit -a`)"
+    )]
+    Pipe {
+        /// The system's reason.
+        source: std::io::Error,
+    },
     /// The program cannot run.
     #[error(
         "cannot start `{command}`: {source}; a program without / in its name is searched in PATH, any other path \
@@ -70,18 +76,24 @@ pub enum LaunchError {
 /// Starts workers, each on a Unix socket of its own in a private folder.
 pub struct Launcher {
     folder: TempDir,
+    logs: WorkerLogs,
+    names: Mutex<BTreeSet<String>>,
 }
 
 impl Launcher {
-    /// Makes the folder.
-    pub fn new() -> Result<Self, LaunchError> {
+    /// Makes the folder; what the workers print goes to `logs`.
+    pub fn new(logs: WorkerLogs) -> Result<Self, LaunchError> {
         let folder = tempfile::Builder::new()
             .prefix("linchpin-")
             // Otherwise it would depend on the umask who can reach the workers.
             .permissions(Permissions::from_mode(0o700))
             .tempdir()
             .map_err(|source| LaunchError::Folder { source })?;
-        Ok(Self { folder })
+        Ok(Self {
+            folder,
+            logs,
+            names: Mutex::default(),
+        })
     }
 
     /// Starts `command` for subsystem `name`. `{address}` in it becomes the address to listen on; without the
@@ -103,14 +115,17 @@ impl Launcher {
         if !command.iter().any(|argument| argument.contains(ADDRESS)) {
             process.args(["--listen", &address]);
         }
-        let log = self.folder.path().join(format!("{name}.log"));
-        let output = File::create(&log).map_err(|source| LaunchError::Folder { source })?;
+        let no_pipe = |source| LaunchError::Pipe { source };
+        let (output, printed) = std::io::pipe().map_err(no_pipe)?;
+        let also_printed = printed.try_clone().map_err(no_pipe)?;
         process
             .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(output)
+            .stdout(also_printed)
+            .stderr(printed)
             // What a worker that is killed leaves behind, such as an unpacked FMU, goes with the folder.
             .env("TMPDIR", self.folder.path())
+            // What a worker in Python prints is to be read when it prints it.
+            .env("PYTHONUNBUFFERED", "1")
             // A group of its own: Ctrl-C at the terminal reaches the master only, which then ends its workers, and a
             // worker ends together with whatever it has started.
             .process_group(0);
@@ -119,10 +134,15 @@ impl Launcher {
             command: command.join(" "),
             source,
         })?;
+        // It holds the other end of the pipe, which would never be closed.
+        drop(process);
+        let announcement = format!("listening on {address}");
+        let output =
+            WorkerOutput::follow(output, &name, announcement, &self.logs).map_err(no_pipe)?;
         Ok(WorkerProcess {
             child: RefCell::new(child),
             address,
-            log,
+            output,
         })
     }
 }
@@ -130,13 +150,12 @@ impl Launcher {
 impl Launcher {
     /// The name of a subsystem, with a number behind it if a worker of that name was started before.
     fn unused(&self, name: &str) -> String {
-        let is_used = |name: &str| self.folder.path().join(format!("{name}.log")).exists();
-        if !is_used(name) {
-            return name.to_owned();
-        }
-        let names = (2_u64..).map(|number| format!("{name}-{number}"));
-        let mut unused = names.skip_while(|name| is_used(name));
-        unused.next().unwrap_or_default()
+        let mut used = self.names.lock().unwrap_or_else(PoisonError::into_inner);
+        let numbered = (2_u64..).map(|number| format!("{name}-{number}"));
+        let mut names = std::iter::once(name.to_owned()).chain(numbered);
+        let unused = names.find(|name| !used.contains(name)).unwrap_or_default();
+        used.insert(unused.clone());
+        unused
     }
 }
 
@@ -163,7 +182,7 @@ fn die_with_parent(_: &mut Command) {}
 pub struct WorkerProcess {
     child: RefCell<Child>,
     address: String,
-    log: PathBuf,
+    output: WorkerOutput,
 }
 
 impl WorkerProcess {
@@ -177,11 +196,6 @@ impl WorkerProcess {
         self.child.borrow().id()
     }
 
-    /// The file with its error output.
-    pub fn log(&self) -> &Path {
-        &self.log
-    }
-
     /// Whether it ended, and how.
     pub fn ended(&self) -> Option<ExitStatus> {
         self.child.borrow_mut().try_wait().ok().flatten()
@@ -193,19 +207,11 @@ impl WorkerProcess {
         while self.ended().is_none() && Instant::now() < give_up {
             std::thread::sleep(Duration::from_millis(1));
         }
+        let status = self.ended();
         ExitMessage {
-            status: self.ended(),
-            error_output: self.error_output(),
+            status,
+            printed: self.output.printed(status.is_some()).map(Box::new),
         }
-    }
-
-    fn error_output(&self) -> String {
-        let text = std::fs::read(&self.log).unwrap_or_default();
-        let text = String::from_utf8_lossy(&text);
-        let lines: Vec<&str> = text.lines().collect();
-        let last = lines[lines.len().saturating_sub(LAST_LINES)..].iter();
-        let last: Vec<String> = last.map(|line| clean(line, LONGEST_LINE)).collect();
-        last.join("\n")
     }
 }
 

@@ -3,6 +3,7 @@
 mod column;
 mod contacts;
 mod described;
+mod fitted_joint;
 mod free_velocity;
 mod growth;
 mod guard;
@@ -23,6 +24,7 @@ pub use column::{Column, MarkerPart, Quantity};
 pub use contacts::RecordedContact;
 pub(crate) use contacts::outputs as contact_outputs;
 pub(crate) use described::described;
+pub use fitted_joint::FittedJoint;
 pub use free_velocity::FreeVelocity;
 pub use guard::Guard;
 pub use integrations::{Cause, Integrations};

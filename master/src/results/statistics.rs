@@ -7,8 +7,8 @@ use linchpin_proto::v1;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Redundancy, Row, SingularPassages,
-    StepDegrees, Verdict,
+    FittedJoint, FreeVelocity, Integrations, MomentsOf, Outcome, Passes, Redundancy, Row,
+    SingularPassages, StepDegrees, Verdict,
 };
 use crate::accuracy::RunErrors;
 use crate::layout::Layout;
@@ -49,6 +49,8 @@ pub struct Statistics {
     pub moments: Option<MomentsOf>,
     /// Initial velocities that were chosen so that they meet the joints.
     pub free_velocities: Vec<FreeVelocity>,
+    /// Joints whose geometry was fitted to the start.
+    pub fitted_joints: Vec<FittedJoint>,
     /// Conditions of the joints that follow from others.
     pub redundancy: Redundancy,
     /// Singular positions that were passed.

@@ -7,7 +7,7 @@ use super::resolved::{
 use super::step_control::{self, MACRO_STEP, MacroSteps, TOLERANCE, VARIABLE};
 use crate::methods::{DEGREE, EXCHANGED_DEGREE, Entry, Method};
 use crate::reading::error_kind::{Names, SceneErrorKind};
-use crate::reading::key::{Key, POSITIVE, Takes, texts};
+use crate::reading::key::{FINITE, Key, POSITIVE, Range, Takes, texts};
 use crate::reading::reader::{Field, Problems, Section, choice, given};
 use crate::reading::written::Value;
 
@@ -15,7 +15,7 @@ use crate::reading::written::Value;
 pub(super) const METHOD_KEY: &str = "coupling.method";
 
 /// Keys that every method has.
-const COMMON: [Key; 6] = [
+const COMMON: [Key; 7] = [
     Key::new("method", Takes::Choice(Method::NAMES))
         .default("`\"hermite\"`")
         .means("what they compute: [theory](../theory/README.md)"),
@@ -46,7 +46,24 @@ const COMMON: [Key; 6] = [
             "what crosses the joints of a subsystem whose contacts collide: `\"impulses\"`, so that its partners take \
              part in an impact ([theory](../theory/impacts.md)), or `\"forces\"` alone",
         ),
+    Key::new("start_tolerance", Takes::Number(START_TOLERANCE))
+        .default_number(CLOSED)
+        .means(
+            "by how much joints may be open at the start, relative to positions and arms there, in velocities relative to these: \
+             [rounded geometry](../guide/when-it-goes-wrong.md#a-joint-is-open-at-the-start) is met by the least shift and turn \
+             of the joint at marker b, which the run tells",
+        ),
 ];
+/// Joints that are open by less than this share of the motion are closed up to rounding.
+pub(crate) const CLOSED: f64 = 1e-9;
+/// How far joints may be open at the start at most.
+pub(crate) const MOST_TOLERATED: f64 = 0.01;
+const START_TOLERANCE: Range = Range {
+    words: "from 1e-9, below which it is rounding, to 0.01",
+    least: CLOSED,
+    most: MOST_TOLERATED,
+    ..FINITE
+};
 
 /// Keys that every method with a corrector has.
 const CORRECTED: [Key; 6] = [
@@ -189,8 +206,15 @@ pub(super) fn read(
 ) -> Option<Coupling> {
     let choices: Vec<(&str, &Entry<Method>)> =
         Method::ALL.iter().map(|own| (own.name, own)).collect();
-    let [method, exchanged_degree, loads, _, increment, impacts] =
-        section.fields(&COMMON, problems);
+    let [
+        method,
+        exchanged_degree,
+        loads,
+        _,
+        increment,
+        impacts,
+        start_tolerance,
+    ] = section.fields(&COMMON, problems);
     let [jacobian, iterations, ..] = section.fields(&CORRECTED, problems);
     let kind = match method {
         Some(field) => field.choice(&choices, problems),
@@ -220,6 +244,7 @@ pub(super) fn read(
     };
     let loads = choice(loads, &LOADS, problems);
     let impacts = choice(impacts, &IMPACTS, problems);
+    let start_tolerance = start_tolerance.map_or(Some(CLOSED), |field| field.number(problems));
     let jacobian = choice(jacobian, &JACOBIANS, problems);
     let iterations = given(iterations, |field| {
         read_iterations(&field.section(problems)?, steps.as_ref(), problems)
@@ -236,6 +261,7 @@ pub(super) fn read(
         increment: increment?,
         jacobian: jacobian?,
         iterations: iterations?,
+        start_tolerance: start_tolerance?,
     })
 }
 

@@ -37,6 +37,7 @@ pub use crate::reading::{
     SceneErrorKind, SceneErrors, Takes, Unit,
 };
 pub use coupling::methods_with;
+pub(crate) use coupling::{CLOSED, MOST_TOLERATED};
 pub use load::{load, parse};
 pub(crate) use resolve::GROUND;
 pub use resolve::SCENE_KEYS;

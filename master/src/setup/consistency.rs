@@ -3,15 +3,16 @@
 use linchpin_proto::readable;
 
 use crate::error::RunError;
-use crate::joint::{Level, Motion};
+use crate::joint::{Condition, Level, Motion};
 use crate::layout::Layout;
-use crate::scene::Scene;
+use crate::scene::{CLOSED, MOST_TOLERATED, Scene};
 use crate::system::motion_of;
 
-/// Joints that are open by less than this share of the motion are closed up to rounding.
-const CLOSED: f64 = 1e-9;
+/// Advice for a gap has so many times the tolerance that would just do.
+const MARGIN: f64 = 2.0;
 
-/// Checks all joints on the levels that the method demands below the acceleration. `outputs` are the coupling outputs.
+/// Checks all joints on the levels that the method demands below the acceleration, with what the scene tolerates of velocities. `outputs` are the
+/// coupling outputs.
 pub(super) fn check(scene: &Scene, layout: &Layout, outputs: &[Vec<f64>]) -> Result<(), RunError> {
     for number in 0..layout.rows.len() {
         check_row(scene, layout, outputs, number)?;
@@ -57,17 +58,47 @@ fn check_row(
     let levels = layout.level.up_to().iter();
     for &level in levels.filter(|level| **level < Level::Acceleration) {
         let residual = condition.value(level, &motion);
-        if residual.abs() > CLOSED * condition.extent(level, &motion) {
+        // On position level the geometry has been fitted.
+        let tolerance = match level {
+            Level::Position => CLOSED,
+            Level::Velocity | Level::Acceleration => scene.coupling.start_tolerance,
+        };
+        let extent = condition.extent(level, &motion);
+        if residual.abs() > tolerance * extent {
             let message = format!(
                 "the joint is open at t = {} s: {} is {}",
                 readable::time(scene.t_start),
                 layout.column_name(number, &format!("residual.{}", level.name())),
                 readable::number(residual)
             );
-            let help = "choose initial values of the two subsystems that meet the joint";
             let key = format!("joint.{}", scene.joints[row.joint].name);
-            return Err(scene.error(&key, message, Some(help.into())).into());
+            let help = help(scene, layout, row.joint, &motion);
+            return Err(scene.error(&key, message, Some(help)).into());
         }
     }
     Ok(())
+}
+
+/// What to do about a joint that is open.
+fn help(scene: &Scene, layout: &Layout, joint: usize, motion: &Motion) -> String {
+    let initial = "choose initial values of the two subsystems that meet the joint";
+    let law = &layout.joints[joint].joint;
+    let has_geometry = law.conditions().all(|condition| condition.law().is_some());
+    let levels = layout.level.up_to().iter();
+    let open = levels
+        .filter(|level| **level < Level::Acceleration)
+        .flat_map(|&level| {
+            let share = move |condition: &dyn Condition| {
+                condition.value(level, motion).abs() / condition.extent(level, motion)
+            };
+            law.conditions().map(share)
+        });
+    let wanted = MARGIN * open.fold(0.0, f64::max);
+    let is_more = wanted > scene.coupling.start_tolerance;
+    match has_geometry && is_more && wanted <= MOST_TOLERATED {
+        true => {
+            format!("{initial}, or, if they are rounded, coupling.start_tolerance = {wanted:.0e}")
+        }
+        false => initial.to_owned(),
+    }
 }

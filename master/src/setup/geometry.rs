@@ -52,15 +52,15 @@ pub(super) fn law_of(scene: &Scene, joint: &Joint, markers: MarkerKind) -> Resul
 
 /// Which keys a kind of joint has.
 #[derive(Debug, Clone, Copy)]
-struct Needs {
-    points: bool,
-    axes: [bool; 2],
-    attitude: bool,
+pub(super) struct Needs {
+    pub(super) points: bool,
+    pub(super) axes: [bool; 2],
+    pub(super) attitude: bool,
 }
 
 impl Needs {
     /// `None` if the joint cannot hold such markers.
-    fn of(kind: JointKind, markers: MarkerKind) -> Option<Self> {
+    pub(super) fn of(kind: JointKind, markers: MarkerKind) -> Option<Self> {
         let in_space = markers == MarkerKind::Spatial;
         let (points, axes, attitude) = match (kind, markers) {
             (JointKind::RigidLink, MarkerKind::Scalar) => (false, [false; 2], false),

@@ -5,10 +5,10 @@ use linchpin_proto::v1;
 use super::degrees::{check_degrees, fit, layout_of, load_forms};
 use super::discover::{connect_signals, mark, model_of, record_markers, recorded_outputs};
 use super::initial::InitialState;
+use super::instances::{initialize, initialize_request, names};
 use super::options::{Connect, Options};
-use super::refusal::{Refusals, refuse_setup};
 use super::steps::{plan_of, solver_tolerances, step_size_of};
-use super::{consistent, forward_only, impacts, inside, panels, redundancy, velocities};
+use super::{consistent, fitting, forward_only, impacts, inside, panels, redundancy, velocities};
 use crate::accuracy::StepErrors;
 use crate::error::RunError;
 use crate::joint::Level;
@@ -39,9 +39,10 @@ impl CoSimulation {
         for (number, model) in models.iter().enumerate() {
             forward_only::refuse(scene, number, model)?;
         }
-        let joints = mark(scene, &models)?;
-        let connections = connect_signals(scene, &models)?;
-        let scene = &fit(scene, &models, &joints, &connections);
+        let (scene, fitted_joints) = fitting::fit(scene, &models, &mut subsystems)?;
+        let joints = mark(&scene, &models)?;
+        let connections = connect_signals(&scene, &models)?;
+        let scene = &fit(&scene, &models, &joints, &connections);
         let coupled = Coupled {
             subsystems: names(scene),
             forms: load_forms(scene, &models)?,
@@ -60,18 +61,7 @@ impl CoSimulation {
         let mut requests: Vec<_> = (0..subsystems.len())
             .map(|number| initialize_request(scene, number, &models, &layout, &recorded[number]))
             .collect();
-        let mut refusals = Refusals::default();
-        for (number, subsystem) in subsystems.iter_mut().enumerate() {
-            let model = &models[number];
-            let capabilities = model.capabilities.unwrap_or_default();
-            subsystem.repeats_steps = capabilities.repeats_step_sequence;
-            subsystem.offers_derivatives = capabilities.directional_derivatives;
-            subsystem.exports_states = capabilities.exportable_snapshot;
-            if let Err(error) = subsystem.initialize(requests[number].clone()) {
-                refusals.collect(refuse_setup(scene, number, model, subsystem, error))?;
-            }
-        }
-        refusals.finish()?;
+        initialize(scene, &models, &requests, &mut subsystems)?;
         for group in &colliding {
             subsystems[group.finder].couples_impacts = true;
         }
@@ -113,6 +103,7 @@ impl CoSimulation {
             .then(|| Mechanism::new(names, &points, &models, &joints, row.columns()));
         let mut statistics = Statistics::new(&run.layout);
         statistics.free_velocities = free_velocities;
+        statistics.fitted_joints = fitted_joints;
         statistics.redundancy = redundancy;
         let mut simulation = Self {
             multipliers: vec![0.0; run.layout.rows.len()],
@@ -270,13 +261,6 @@ pub(super) fn connect_one(
     Ok(Subsystem::new(&subsystem.name, connection, recovery))
 }
 
-fn names(scene: &Scene) -> Vec<&str> {
-    let subsystems = scene.subsystems.iter();
-    subsystems
-        .map(|subsystem| subsystem.name.as_str())
-        .collect()
-}
-
 fn initial_state(
     scene: &Scene,
     coupled: &Coupled<'_>,
@@ -332,36 +316,6 @@ fn refuse_mixed_degrees(scene: &Scene, layout: &Layout) -> Result<(), RunError> 
         }
         _ => Ok(()),
     }
-}
-
-fn initialize_request(
-    scene: &Scene,
-    number: usize,
-    models: &[v1::Model],
-    layout: &Layout,
-    recorded: &[String],
-) -> v1::InitializeRequest {
-    let written = &scene.subsystems[number];
-    v1::InitializeRequest {
-        model: models[number].name.clone(),
-        parameters: written.parameters.clone(),
-        solver: written.solver.clone(),
-        t_start: scene.t_start,
-        inputs: input_names(layout, number, false),
-        joint_inputs: input_names(layout, number, true),
-        joint_loads: layout.joint_loads[number].clone(),
-        coupling_outputs: layout.outputs[number].clone(),
-        recorded_outputs: recorded.to_vec(),
-        interior_outputs: layout.interior_outputs(number),
-        integrated_outputs: layout.integrated_outputs(number),
-        ..v1::InitializeRequest::default()
-    }
-}
-
-fn input_names(layout: &Layout, number: usize, are_joint_inputs: bool) -> Vec<String> {
-    let inputs = layout.inputs_of(number).iter();
-    let inputs = inputs.filter(|input| input.is_joint_input == are_joint_inputs);
-    inputs.map(|input| input.name.clone()).collect()
 }
 
 /// Where steps or degrees vary, the past nodes of the polynomials do: columns that stay in use must serve with any of them. With Hermite coupling there

@@ -68,6 +68,11 @@ impl MacroGrid {
         grid
     }
 
+    /// `H` in s.
+    pub(super) fn macro_step(&self) -> f64 {
+        self.macro_step
+    }
+
     /// Number of macro steps.
     pub fn len(&self) -> usize {
         self.full_steps + self.last_steps

@@ -15,8 +15,8 @@ pub struct TimePlan {
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Rule {
-    /// All macro points are known.
-    Grid(MacroGrid),
+    /// All macro points are known, from the one on that was reached after so many steps.
+    Grid(MacroGrid, usize),
     /// Every step has the length that is wished for, as far as the end allows.
     Free,
     /// The lengths of the steps are given.
@@ -31,7 +31,7 @@ impl TimePlan {
     pub fn equidistant(t_start: f64, t_end: f64, macro_step: f64) -> Self {
         let grid = MacroGrid::new(t_start, t_end, macro_step);
         let first = grid.step(0);
-        Self::new(Rule::Grid(grid), t_start, t_end, first)
+        Self::new(Rule::Grid(grid, 0), t_start, t_end, first)
     }
 
     /// Steps whose lengths are found on the way, the first `macro_step` long. The last point is `t_end` exactly; when the end is near the rest
@@ -72,7 +72,7 @@ impl TimePlan {
     /// Number of macro steps of the whole plan; those done so far if the steps vary.
     pub fn steps_planned(&self) -> usize {
         match &self.rule {
-            Rule::Grid(grid) => grid.len(),
+            Rule::Grid(grid, before) => before + grid.len(),
             Rule::Free => self.done,
             Rule::Given(lengths) => lengths.len(),
         }
@@ -90,12 +90,43 @@ impl TimePlan {
         step
     }
 
+    /// Lets `t`, which lies behind the present macro point, become a macro point itself: the shorter step that takes the place of the present one,
+    /// if that would pass it. So that no step is tiny, two that would end little beyond it are made equal. Equidistant macro points are counted anew from a
+    /// step that was shortened.
+    pub fn meet(&mut self, t: f64) -> Option<MacroStep> {
+        let step = self.step?;
+        let rest = t - step.start;
+        let share = rest / step.length;
+        let is_met = share > 0.5 && (share - share.round()).abs() <= ROUNDING * share;
+        if is_met || share >= 2.0 {
+            return None;
+        }
+        let shorter = match share < 1.0 {
+            true => MacroStep {
+                length: rest,
+                end: t,
+                ..step
+            },
+            false => MacroStep {
+                length: 0.5 * rest,
+                end: step.start + 0.5 * rest,
+                ..step
+            },
+        };
+        if let Rule::Grid(grid, before) = &mut self.rule {
+            *grid = MacroGrid::new(shorter.end, self.t_end, grid.macro_step());
+            *before = self.done + 1;
+        }
+        self.step = Some(shorter);
+        Some(shorter)
+    }
+
     /// The step after the present one, with the length that is wished for where steps vary; `None` if the present one reaches the end.
     pub fn following(&self, wish: f64) -> Option<MacroStep> {
         let next = self.done + 1;
         let start = self.step?.end;
         match &self.rule {
-            Rule::Grid(grid) => grid.step(next),
+            Rule::Grid(grid, before) => grid.step(next - before),
             Rule::Free => free_step(
                 start,
                 self.t_end,
@@ -215,7 +246,57 @@ mod tests {
         assert_eq!(plan.step().map(|step| step.start), Some(1.125));
     }
 
+    /// The macro points of a plan that meets these times, which are ascending.
+    fn met(mut plan: TimePlan, times: &[f64]) -> Vec<f64> {
+        let mut points = Vec::new();
+        for &t in times {
+            while plan.t() < t - 1e-9 {
+                plan.meet(t);
+                let wish = plan.step().unwrap().length;
+                plan.move_on(plan.following(wish));
+                points.push(plan.t());
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn times_at_macro_points_change_nothing() {
+        let plan = TimePlan::equidistant(0.0, 1.0, 0.1);
+        let given = lengths(plan.clone(), []);
+        let times: Vec<f64> = (1..=5).map(|n| 0.2 * f64::from(n)).collect();
+        let points = met(plan, &times);
+        let grid = MacroGrid::new(0.0, 1.0, 0.1);
+        let of_grid: Vec<f64> = (1..=10).map(|n| grid.point(n)).collect();
+        assert_eq!(points, of_grid);
+        assert_eq!(given, [0.1; 10]);
+    }
+
+    #[test]
+    fn times_between_macro_points_shorten_the_steps_before_them() {
+        let plan = TimePlan::equidistant(0.0, 4.0, 1.0);
+        assert_eq!(
+            met(plan, &[1.25, 1.5, 4.0]),
+            [0.625, 1.25, 1.5, 2.5, 3.25, 4.0]
+        );
+    }
+
     proptest! {
+        #[test]
+        fn any_time_is_met(h in 1e-2f64..1.0, gaps in proptest::collection::vec(1e-3f64..1.0, 1..20), is_grid: bool) {
+            let mut t = 0.0;
+            let times: Vec<f64> = gaps.iter().map(|gap| { t += gap; t }).collect();
+            let plan = match is_grid {
+                true => TimePlan::equidistant(0.0, t.max(h), h),
+                false => TimePlan::variable(0.0, t.max(h), h),
+            };
+            let points = met(plan, &times);
+            for time in times {
+                prop_assert!(points.iter().any(|point| (point - time).abs() <= 1e-8));
+            }
+            prop_assert!(points.windows(2).all(|two| two[1] > two[0] && two[1] - two[0] <= h * (1.0 + 1e-6)));
+        }
+
         #[test]
         fn any_plan_ends_exactly(start in -10f64..10.0, span in 1e-3f64..10.0, wishes in proptest::collection::vec(1e-3f64..1.0, 1..40)) {
             let end = start + span;

@@ -216,7 +216,8 @@ impl Subsystem {
         self.initialize(request)
     }
 
-    fn terminate(&self) -> Result<(), CallError> {
+    /// Ends the instance.
+    pub(crate) fn terminate(&self) -> Result<(), CallError> {
         let request = v1::TerminateRequest {
             instance: self.instance,
         };

@@ -14,6 +14,7 @@ use serde_json::json;
 
 use crate::planted::body::Body;
 use crate::planted::{protocol, solver};
+use crate::sound::undriven;
 use crate::subjects::{built_in, examine, settings};
 
 use protocol::Fault as Protocol;
@@ -109,9 +110,12 @@ fn of_protocol() -> Vec<(&'static str, Protocol, &'static str)> {
     vec![
         (planar, Protocol::RepeatedStepsTwice, "repeats"),
         (planar, Protocol::AnswersOtherContent, "repeats"),
+        ("planar-multibody", Protocol::AnswersOtherContent, "repeats"),
         (planar, Protocol::TakesAnyNumber, "repeats"),
         (planar, Protocol::SnapshotPerRepeat, "repeats"),
         (planar, Protocol::OneSnapshot, "replay"),
+        (planar, Protocol::ImportsNothing, "exported-states"),
+        (planar, Protocol::ImportsDamaged, "exported-states"),
         (planar, Protocol::TakesUnknownOutputs, "refusals"),
         (planar, Protocol::TakesNaN, "refusals"),
         (planar, Protocol::CutsHighDegrees, "refusals"),
@@ -175,6 +179,7 @@ fn planted_faults_of_the_protocol_are_found() {
                 let parameters = json!({"m": 2.0, "c": 1000.0, "d": 10.0, "v0": 1.0, "partner_stiffness": 100.0});
                 settings(model, &parameters, "exact", &[1e-3])
             }
+            "planar-multibody" => settings(model, &undriven(), "rk4 step=1e-4", &[1e-3]),
             _ => body(Body::Planar),
         };
         let worker = Arc::new(protocol::Faulty::new(built_in(), fault));

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod exported;
 mod faults;
 mod low_order;
 mod planted;

@@ -50,6 +50,7 @@ fn smooth() -> Vec<(&'static str, Json)> {
         ),
         ("planar-multibody", two_links("minimal")),
         ("planar-multibody", two_links("absolute")),
+        ("planar-multibody", undriven()),
         ("spatial-multibody", top("minimal")),
         ("spatial-multibody", top("absolute")),
     ]
@@ -66,6 +67,14 @@ fn two_links(formulation: &str) -> Json {
         "spring.s.a": "ground", "spring.s.b": "lower", "spring.s.stiffness": 40.0, "spring.s.damping": 1.0,
         "marker.tip.body": "lower", "marker.tip.point": [0.3, -0.1], "marker.tip.angle": 0.4, "marker.middle.body": "upper"
     })
+}
+
+/// Two links that nothing drives.
+pub fn undriven() -> Json {
+    let mut parameters = two_links("minimal");
+    let all = parameters.as_object_mut().unwrap();
+    all.retain(|name, _| !name.starts_with("marker."));
+    parameters
 }
 
 /// A top on a spherical joint.

@@ -91,7 +91,7 @@ fn whatever_the_method_asks_for() {
 fn unary_calls_have_it_as_well() {
     let workshop = workshop(OSCILLATOR);
     let settings = [
-        "scene.t_end=2",
+        "scene.t_end=8",
         "subsystem.*.calls=unary",
         "run.export_every=30",
     ];
@@ -103,7 +103,7 @@ fn unary_calls_have_it_as_well() {
 #[test]
 fn a_worker_that_exports_nothing_repeats_all_steps() {
     let workshop = workshop(&with_python_worker());
-    let settings = ["run.recoveries=2"];
+    let settings = ["scene.t_end=8", "run.recoveries=2"];
     let repeated = assert_recovers(&workshop, &settings, "mass2", Signal::KILL);
     assert!(repeated > 100, "{repeated}");
 }

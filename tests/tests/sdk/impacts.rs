@@ -2,12 +2,12 @@
 
 use linchpin_proto::v1;
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::assert_misuse;
 use crate::peer::{Serve, host};
-use crate::subjects::{ROUTES, STEP, advance, all_subjects, load, predict};
+use crate::subjects::{ROUTES, STEP, Subject, advance, load, predict, subjects};
 
-both_ways!(
+all_ways!(
     a_step_goes_from_impact_to_impact,
     perturbed_steps_have_the_same_impulses,
     no_impact_is_no_difference,
@@ -33,8 +33,8 @@ fn impacts(instance: &v1::InitializeRequest, loads: [f64; 2]) -> v1::Impacts {
 }
 
 /// The subjects whose input is a load.
-fn struck() -> Vec<(&'static str, v1::InitializeRequest)> {
-    let mut subjects = all_subjects();
+fn struck(serve: Serve) -> Vec<Subject> {
+    let mut subjects = subjects(serve);
     subjects.retain(|(name, _)| *name != "tank");
     subjects
 }
@@ -57,7 +57,7 @@ fn with(impacts: Option<v1::Impacts>) -> v1::ExchangeRequest {
 fn a_step_goes_from_impact_to_impact(serve: Serve) {
     let loads = [0.031, -0.017];
     for route in ROUTES {
-        for (name, instance) in struck() {
+        for (name, instance) in struck(serve) {
             let peer = serve(host());
             let mut whole = route.drive(&peer, &instance, 0);
             let answer = whole.turn(with(Some(impacts(&instance, loads)))).unwrap();
@@ -101,7 +101,7 @@ fn a_step_goes_from_impact_to_impact(serve: Serve) {
 
 fn perturbed_steps_have_the_same_impulses(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in struck() {
+        for (name, instance) in struck(serve) {
             let peer = serve(host());
             let mut driver = route.drive(&peer, &instance, 0);
             let mut request = with(Some(impacts(&instance, [0.031, -0.017])));
@@ -122,7 +122,7 @@ fn perturbed_steps_have_the_same_impulses(serve: Serve) {
 }
 
 fn no_impact_is_no_difference(serve: Serve) {
-    for (name, instance) in struck() {
+    for (name, instance) in struck(serve) {
         let peer = serve(host());
         let mut one = ROUTES[0].drive(&peer, &instance, 0);
         let mut other = ROUTES[0].drive(&peer, &instance, 1);
@@ -141,7 +141,7 @@ fn impacts_out_of_their_step_or_order_are_refused(serve: Serve) {
         |all| all.impacts[0].loads.push(0.0),
         |all| all.impacts[1].loads[0] = f64::NAN,
     ];
-    let (_, instance) = struck().remove(0);
+    let (_, instance) = struck(serve).remove(0);
     for (number, change) in (0..).zip(changes) {
         let peer = serve(host());
         let mut driver = ROUTES[0].drive(&peer, &instance, number);
@@ -152,7 +152,7 @@ fn impacts_out_of_their_step_or_order_are_refused(serve: Serve) {
 }
 
 fn an_interface_needs_a_model_with_impacts(serve: Serve) {
-    let (_, instance) = struck().remove(0);
+    let (_, instance) = struck(serve).remove(0);
     for (number, interface) in (0..).zip([
         v1::Interface {
             rows: 1,

@@ -3,12 +3,12 @@
 use linchpin_proto::v1;
 use linchpin_proto::weights::{MAX_WEIGHTS, legendre};
 
-use crate::both_ways;
+use crate::all_ways;
 use crate::driver::{assert_misuse, failure, oscillator, tank, through};
 use crate::peer::{Serve, host};
-use crate::subjects::{ROUTES, STEP, Subject, advance, all_subjects, bits, load, predict};
+use crate::subjects::{ROUTES, STEP, Subject, advance, bits, load, predict, subjects};
 
-both_ways!(
+all_ways!(
     they_are_those_of_the_outputs,
     a_step_that_is_cut_has_the_integrals_of_the_whole,
     perturbed_steps_and_directions_have_their_own,
@@ -22,8 +22,8 @@ both_ways!(
 const WEIGHTS: u32 = 4;
 
 /// Subjects that offer integrals, with all coupling outputs integrated and told at instants.
-fn offering() -> impl Iterator<Item = Subject> {
-    let offering = all_subjects()
+fn offering(serve: Serve) -> impl Iterator<Item = Subject> {
+    let offering = subjects(serve)
         .into_iter()
         .filter(|(name, _)| *name != "tank");
     offering.map(|(name, instance)| (name, integrated(&instance)))
@@ -98,7 +98,7 @@ fn gauss() -> Vec<[f64; 2]> {
 /// By outputs at the points of Gauss's formula.
 fn they_are_those_of_the_outputs(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in offering() {
+        for (name, instance) in offering(serve) {
             let peer = serve(host());
             let outputs = instance.coupling_outputs.len();
             let mut driver = route.drive(&peer, &instance, 0);
@@ -137,7 +137,7 @@ fn they_are_those_of_the_outputs(serve: Serve) {
 
 fn a_step_that_is_cut_has_the_integrals_of_the_whole(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in offering() {
+        for (name, instance) in offering(serve) {
             let peer = serve(host());
             let [whole, cut] = [&[][..], &[0.2 * STEP, 0.71 * STEP]].map(|instants| {
                 let mut driver = route.drive(&peer, &instance, instants.len() as u64);
@@ -200,7 +200,7 @@ fn perturbed_steps_and_directions_have_their_own(serve: Serve) {
 }
 
 fn both_routes_have_equal_bits(serve: Serve) {
-    for (name, instance) in offering() {
+    for (name, instance) in offering(serve) {
         let peer = serve(host());
         let [fused, unary] = ROUTES.map(|route| {
             let mut driver = route.drive(&peer, &instance, 0);
@@ -218,7 +218,7 @@ fn both_routes_have_equal_bits(serve: Serve) {
 /// Integrals belong to no state: from one that is taken back or restored they come again, whatever was integrated in between.
 fn a_step_that_is_taken_again_has_the_same(serve: Serve) {
     for route in ROUTES {
-        for (name, instance) in offering() {
+        for (name, instance) in offering(serve) {
             let peer = serve(host());
             let mut driver = route.drive(&peer, &instance, 0);
             driver.turn(looking(0, 3.0)).unwrap();

@@ -49,11 +49,20 @@ impl Worker {
 
     /// One of the Python SDK, with an oscillator.
     pub fn in_python(certificates: &Path) -> Self {
-        let workshop = with_copy(certificates);
+        Self::python(with_copy(certificates), &["--certificates", OWN])
+    }
+
+    /// One of the Python SDK, with other flags.
+    pub fn in_python_with(flags: &[&str]) -> Self {
+        Self::python(Workshop::new(), flags)
+    }
+
+    fn python(workshop: Workshop, flags: &[&str]) -> Self {
         let mut command = Command::new(&python().interpreter);
         command
             .arg(in_repository("worker/python/tests/models.py"))
-            .args(["--listen", "127.0.0.1:0", "--certificates", OWN])
+            .args(["--listen", "127.0.0.1:0"])
+            .args(flags)
             .current_dir(workshop.path())
             .env("PYTHONPATH", in_repository("worker/python/src"));
         let running = workshop.start_command(command);

@@ -23,12 +23,12 @@ fn only_who_has_it_is_served() {
     let folder = keys.path().join("certificates/workers/mass1");
     let master = keys.path().join("certificates/master");
     let encrypted = ["--certificates", folder.to_str().unwrap(), "--token", &own];
+    let with = ["--certificates", master.to_str().unwrap()];
     for (worker, more) in [
         (Worker::start_with(&["--token", &own]), &[][..]),
-        (
-            Worker::start_with(&encrypted),
-            &["--certificates", master.to_str().unwrap()],
-        ),
+        (Worker::start_with(&encrypted), &with),
+        (Worker::in_python_with(&["--token", &own]), &[]),
+        (Worker::in_python_with(&encrypted), &with),
     ] {
         let ask = |token: &[&str]| {
             let ask = ["describe", &worker.address];
@@ -59,14 +59,22 @@ fn runs_show_it() {
         "scene.toml",
         include_str!("../../../scenes/oscillator.toml"),
     );
-    let worker = Worker::start_with(&["--token", &own]);
-    let address = format!("subsystem.mass1.address={}", worker.address);
-    for calls in ["automatic", "unary"] {
+    let flags = ["--token", &own];
+    let (rust, python) = (Worker::start_with(&flags), Worker::in_python_with(&flags));
+    for (worker, calls) in [
+        (&rust, "automatic"),
+        (&rust, "unary"),
+        (&python, "automatic"),
+        (&python, "unary"),
+    ] {
+        let address = format!("subsystem.mass1.address={}", worker.address);
         let calls = format!("subsystem.*.calls={calls}");
         let run = [
             "run",
             "scene.toml",
             "--quiet",
+            "--set",
+            "scene.t_end=0.05",
             "--set",
             &address,
             "--set",

@@ -21,6 +21,8 @@ class Rod(Subsystem):
         markers=[START, END],
         repeats_step_sequence=True,
         exportable_snapshot=True,
+        output_integrals=True,
+        impulses=True,
     )
 
     def __init__(self, setup):
@@ -41,24 +43,34 @@ class Rod(Subsystem):
         return fx / self.m, fy / self.m - GRAVITY, sum(moments) / self.inertia
 
     def advance(self, t, step, u):
-        for _, h, (start, middle, end) in u.stages(dt=5e-4):
+        for tau, h, (start, middle, end) in u.stages(dt=min(5e-4, self.integrals.longest_step(step))):
 
-            def slope(after, previous, loads):
+            def slope(after, weight, previous, loads, tau=tau):
                 state = [own + after * rate for own, rate in zip(self.state, previous, strict=True)]
+                if self.integrals:  # by the weights of the method, so they have its order
+                    self.integrals.add(tau + after, weight, self.told(state, loads))
                 return (*state[3:], *self.acceleration(state, loads))
 
-            first = slope(0.0, self.state, start)
-            second = slope(h / 2, first, middle)
-            third = slope(h / 2, second, middle)
-            slopes = zip(self.state, first, second, third, slope(h, third, end), strict=True)
+            first = slope(0.0, h / 6, self.state, start)
+            second = slope(h / 2, h / 3, first, middle)
+            third = slope(h / 2, h / 3, second, middle)
+            slopes = zip(self.state, first, second, third, slope(h, h / 6, third, end), strict=True)
             self.state = tuple(own + h / 6 * (a + 2 * b + 2 * c + d) for own, a, b, c, d in slopes)
             self.internal_steps += 1
 
+    def impulse(self, t, u, impulses):
+        raised, own = (self.acceleration(self.state, loads) for loads in (u.plus(impulses), u))
+        jump = (0.0, 0.0, 0.0, *(a - b for a, b in zip(raised, own, strict=True)))
+        self.state = tuple(a + b for a, b in zip(self.state, jump, strict=True))
+
     def outputs(self, t, u):
-        x, y, angle, vx, vy, rate = self.state
-        ax, ay, alpha = self.acceleration(self.state, u)
+        return self.told(self.state, u)
+
+    def told(self, state, u):
+        x, y, angle, vx, vy, rate = state
+        ax, ay, alpha = self.acceleration(state, u)
         told = []
-        for dx, dy in self.ends(self.state):
+        for dx, dy in self.ends(state):
             told += [x + dx, y + dy, angle, vx - rate * dy, vy + rate * dx, rate]
             told += [ax - alpha * dy - rate**2 * dx, ay + alpha * dx - rate**2 * dy, alpha]
         return told

@@ -19,6 +19,7 @@ class Pendulum(Subsystem):
         + [Parameter("length", "m", above=0.0), Parameter("angle0", "rad", default=0.0)],
         markers=[TIP],
         exportable_snapshot=True,
+        output_integrals=True,
     )
 
     def __init__(self, setup):
@@ -31,14 +32,23 @@ class Pendulum(Subsystem):
         return np.array([state[1], moment / (self.inertia + self.m * self.length**2 / 4)])
 
     def advance(self, t, step, u):
+        def rates(tau, unknowns):  # the state, then the integrals that are asked for
+            state, inputs = unknowns[:2], u(tau)
+            return [*self.rates(state, inputs), *self.integrals.rates(tau, self.told(state, inputs))]
+
         limits = {"rtol": self.tolerance, "atol": self.tolerance}
-        done = solve_ivp(lambda tau, state: self.rates(state, u(tau)), (0.0, step), self.state, "DOP853", **limits)
+        start = np.append(self.state, np.zeros(len(self.integrals)))
+        done = solve_ivp(rates, (0.0, step), start, "DOP853", **limits)
         if not done.success:
             raise StepFailed(done.message, t + done.t[-1])
-        self.state = done.y[:, -1]
+        self.state = done.y[:2, -1]
+        self.integrals.set(done.y[2:, -1])
 
     def outputs(self, t, u):
-        (angle, rate), (_, alpha) = self.state, self.rates(self.state, u)
+        return self.told(self.state, u)
+
+    def told(self, state, u):
+        (angle, rate), (_, alpha) = state, self.rates(state, u)
         along, across = self.length * np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
         return [*along, angle, *(rate * across), rate, *(alpha * across - rate**2 * along), alpha]
 

@@ -88,6 +88,8 @@ class Oscillator(Subsystem):
         repeats_step_sequence=True,
         directional_derivatives=True,
         exportable_snapshot=True,
+        output_integrals=True,
+        impulses=True,
     )
 
     def __init__(self, setup):
@@ -112,8 +114,19 @@ class Oscillator(Subsystem):
                 load = loads[n] - self.c * xs[n]
                 xs.append(ws[n] / (n + 1))
                 ws.append((h * h * load - h * self.d * ws[n]) / self.m / (n + 1))
+            self.integrate(part * h, h, u, xs, ws)
             x, v = sum(xs), v + sum(ws[1:]) / h
         return x, v
+
+    def integrate(self, start, h, u, xs, ws):
+        def inside(sigma):
+            x, w = (sum(power * (sigma / h) ** n for n, power in enumerate(powers)) for powers in (xs, ws))
+            return self.told(x, w / h, u(start + sigma))
+
+        self.integrals.add_along(start, h, max(self.terms, 7), inside)
+
+    def impulse(self, t, u, impulses):
+        self.v += impulses.f / self.m
 
     def told(self, x, v, u):
         load = u.f + self.partner[0] * u.partner_x + self.partner[1] * u.partner_v
@@ -264,27 +277,6 @@ class Faulty(Subsystem):
         if self.fault == "lost":
             raise StepFailed("the state is gone")
         self.x = state
-
-
-class Array(Subsystem):
-    """A state in an array that is changed in place, as solvers in C do; `x' = f`."""
-
-    description = Description("array", inputs=[Variable("f", default=0.0)], outputs=[Variable("x")], exportable_snapshot=True)
-
-    def __init__(self, setup):
-        self.state = [setup.t_start, 0.0]
-
-    def advance(self, t, step, u):
-        self.state[1] += step * u(0.5 * step).f
-
-    def outputs(self, t, u):
-        return self.state[1:]
-
-    def save(self):
-        return self.state
-
-    def load(self, state):
-        self.state[:] = state
 
 
 if __name__ == "__main__":

@@ -40,8 +40,16 @@ class Anything(unittest.TestCase):
     def instants(self):
         return self.random.choice([[], [], [1e-4, 3e-4], self.numbers(2)])
 
+    def impacts(self):
+        return pb.Impacts(impacts=[pb.Impact(at=at, loads=self.random.choice([[], self.numbers(2)])) for at in self.instants()])
+
     def step(self, **fields):
         step = self.random.choice([1e-3, 1e-3, 0.5, self.number()])
+        fields = {
+            "integrals": self.random.choice([0, 3, 3, 9]),
+            "impacts": self.random.choice([None, self.impacts()]),
+            **fields,
+        }
         return {"t": self.number(), "step": step, "signals": self.signals(), "instants": self.instants(), **fields}
 
     def look(self):
@@ -58,7 +66,7 @@ class Anything(unittest.TestCase):
             fields = self.step(perturbed=self.signals(), directions=self.signals())
             return kind, pb.PerturbedStepRequest(**sequence, **fields)
         if kind == "exchange":
-            advance = pb.Advance(**self.step(samples=self.instants(), integrals=self.random.randint(0, 9)))
+            advance = pb.Advance(**self.step(samples=self.instants()))
             parts = {"advance": advance, "predict": self.look(), "evaluate": self.look()}
             parts = {name: part for name, part in parts.items() if pick() < 0.5}
             return kind, pb.ExchangeRequest(**sequence, **parts, go_back=pick() < 0.3)
@@ -102,7 +110,7 @@ class Anything(unittest.TestCase):
 
     def test_an_oscillator_survives_any_calls(self):
         for _ in range(ROUNDS):
-            self.start(oscillator(interior_outputs=["x"]))
+            self.start(oscillator(interior_outputs=["x"], integrated_outputs=["v", "x"]))
             for _ in range(8):
                 self.call()
             self.assertTrue(all(map(math.isfinite, self.state("x", "v"))))

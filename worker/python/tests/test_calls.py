@@ -2,7 +2,6 @@
 
 import math
 
-import models
 from models import LEAK, START
 from peer import (
     FLOOD,
@@ -21,8 +20,29 @@ from peer import (
     through,
 )
 
-from linchpin_worker import Limits
+from linchpin_worker import Description, Limits, Subsystem, Variable
 from linchpin_worker._contract import worker_pb2 as pb
+
+
+class Array(Subsystem):
+    """A state in an array that is changed in place, as solvers in C do; `x' = f`."""
+
+    description = Description("array", inputs=[Variable("f", default=0.0)], outputs=[Variable("x")], exportable_snapshot=True)
+
+    def __init__(self, setup):
+        self.state = [setup.t_start, 0.0]
+
+    def advance(self, t, step, u):
+        self.state[1] += step * u(0.5 * step).f
+
+    def outputs(self, t, u):
+        return self.state[1:]
+
+    def save(self):
+        return self.state
+
+    def load(self, state):
+        self.state[:] = state
 
 
 class Calling(WorkerTest):
@@ -175,7 +195,7 @@ class Calling(WorkerTest):
             self.assertEqual(march(), first)
 
     def test_a_state_that_is_changed_in_place_is_kept_all_the_same(self):
-        driver = Driver(Peer(self, classes=[models.Array]), initialize(model="array", coupling_outputs=["x"], inputs=["f"]))
+        driver = Driver(Peer(self, classes=[Array]), initialize(model="array", coupling_outputs=["x"], inputs=["f"]))
         start = driver.snapshot()
         self.assertEqual(driver.step(0.0, 0.5, constant(0, 1.0)), [0.5])
         driver.restore(start)

@@ -23,6 +23,8 @@ class Initializing(WorkerTest):
                 directional_derivatives=True,
                 interior_outputs=True,
                 exportable_snapshot=True,
+                output_integrals=True,
+                impulses=True,
             ),
         )
         self.assertEqual([one.name for one in described["oscillator"].solvers], ["exact", "radau5", "rk4"])
@@ -71,7 +73,7 @@ class Initializing(WorkerTest):
             (oscillator(coupling_outputs=["y"]), "coupling_outputs", ["y", "x, v, a"]),
             (oscillator(recorded_outputs=["y"]), "recorded_outputs", ["y", "x, v, a"]),
             (oscillator(interior_outputs=["y"]), "interior_outputs", ["y", "x, v, a"]),
-            (oscillator(integrated_outputs=["x"]), "integrated_outputs", ["oscillator", "output_integrals"]),
+            (tank(integrated_outputs=["level"]), "integrated_outputs", ["tank", "output_integrals"]),
             (oscillator(joint_inputs=["lambda"]), "joint_inputs", ["forces and moments"]),
             (oscillator(joint_loads=[pb.JointLoad()]), "joint_loads", ["forces and moments"]),
             (initialize(model="stand", parameters={**marker, "marker": numbers}), "parameters.marker", ["a text"]),

@@ -26,6 +26,25 @@ def describe(channel):
     return call(pb.DescribeRequest(protocol=PROTOCOL).SerializeToString(), wait_for_ready=True, timeout=20)
 
 
+SECRET = "0123456789abcdef" * 2
+
+
+def secret(folder, text, name="token", mode=0o600):
+    """A file with a token."""
+    path = pathlib.Path(folder, name)
+    path.write_text(f"{text}\n")
+    path.chmod(mode)
+    return str(path)
+
+
+def ask(channel, name, metadata):
+    """An empty call; that of a stream has one request."""
+    path = f"/linchpin.v1.Worker/{name}"
+    if name == "Exchange":
+        return next(channel.stream_stream(path)(iter([b""]), metadata=metadata, timeout=20))
+    return channel.unary_unary(path)(b"", metadata=metadata, timeout=20)
+
+
 class Program(unittest.TestCase):
     def start(self, *arguments, program=PROGRAM, **options):
         options = {"stdin": subprocess.DEVNULL, **options}
@@ -139,6 +158,9 @@ class Program(unittest.TestCase):
         for arguments, words in (
             (["--listen", "localhost"], '"localhost" is no address to listen on; write IP:PORT'),
             (["--max-instances", "0"], '"0" must be a whole number of at least 1'),
+            (["--max-message", "0"], '"0" must be a whole number of MiB from 1 to 1024'),
+            (["--max-message", "1025"], '"1025" must be a whole number of MiB from 1 to 1024'),
+            (["--max-message", "all"], '"all" must be a whole number of MiB from 1 to 1024'),
             (["--lease", "-1"], '"-1" must be a number of seconds from 0 to 1e6'),
             (["--lease", "long"], "could not convert string to float: 'long'"),
         ):
@@ -162,6 +184,42 @@ class Program(unittest.TestCase):
         self.assertIn("make new ones with linchpin certificates", self.ends(self.start(*arguments), 1))
         said = self.ends(self.start("--listen", f"unix:{folder}/worker", "--certificates", folder), 1)
         self.assertIn("takes no certificates", said)
+
+    def test_only_a_master_with_the_token_is_served(self):
+        own = secret(self.folder(), SECRET)
+        process = self.start("--listen", "127.0.0.1:0", "--token", own)
+        address = process.stdout.readline().removeprefix("listening on http://").strip()
+        with grpc.insecure_channel(address) as channel:
+            for shown, words in (
+                ([], "the worker demands a token; give its file with --token (in a scene: security.token)"),
+                ([("authorization", f"Bearer {SECRET.replace('0', '1')}")], "the worker has another token"),
+                ([("authorization", SECRET)], "the worker has another token"),
+            ):
+                for name in ("Describe", "Exchange"):
+                    with self.subTest(shown=shown, call=name), self.assertRaises(grpc.RpcError) as caught:
+                        ask(channel, name, shown)
+                    self.assertEqual(caught.exception.code(), grpc.StatusCode.UNAUTHENTICATED)
+                    self.assertIn(words, caught.exception.details())
+            reply = pb.DescribeReply.FromString(ask(channel, "Describe", [("authorization", f"Bearer {SECRET}")]))
+            self.assertEqual(reply.worker, "linchpin-worker")
+            health = channel.unary_unary("/grpc.health.v1.Health/Check")
+            self.assertEqual(health(b"", timeout=20), b"\x08\x01")
+
+    def test_files_that_hold_no_token_are_told(self):
+        folder = self.folder()
+        for name, text, mode, words in (
+            ("short", "0123456789abcdef", 0o600, "holds no token: it must be one line of 32 to 1024"),
+            ("lines", f"{SECRET}\n{SECRET}", 0o600, "holds no token"),
+            ("signs", "\N{SNOWMAN}" * 32, 0o600, "holds no token"),
+            ("open", SECRET, 0o640, "can be read by other users; take that away with chmod 600"),
+            ("nowhere", None, 0o600, "cannot read the token"),
+        ):
+            with self.subTest(name=name):
+                path = f"{folder}/nowhere" if text is None else secret(folder, text, name, mode)
+                said = self.ends(self.start("--listen", "127.0.0.1:0", "--token", path), 1)
+                self.assertIn(path, said)
+                self.assertIn(words, said)
+                self.assertNotIn(SECRET, said)
 
     def test_a_socket_is_for_its_user_whatever_the_umask(self):
         path = f"{self.folder()}/worker"

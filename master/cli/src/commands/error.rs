@@ -15,6 +15,7 @@ use linchpin_worker::server::{ListenError, ServeError};
 use crate::certificates::NewCertificatesError;
 use crate::comparison::ComparisonError;
 use crate::conformance::ConformanceError;
+use crate::export::fmu::FmuExportError;
 use crate::interrupt::{self, Request};
 use crate::output::checkpoint::ResumeError;
 use crate::output::part::PartError;
@@ -202,6 +203,9 @@ pub enum CommandError {
         /// Its end (s).
         to: f64,
     },
+    /// A scene is no FMU.
+    #[error(transparent)]
+    FmuExport(Box<FmuExportError>),
     /// A study has no result.
     #[error(transparent)]
     Study(#[from] StudyError),
@@ -352,6 +356,16 @@ impl From<CertificatesError> for CommandError {
     }
 }
 
+impl From<FmuExportError> for CommandError {
+    fn from(error: FmuExportError) -> Self {
+        match error {
+            FmuExportError::Scene(errors) => Self::Scene(*errors),
+            FmuExportError::Run(error) => Self::Run(*error),
+            error => Self::FmuExport(Box::new(error)),
+        }
+    }
+}
+
 impl CommandError {
     /// That a folder or file cannot be written, by the system's reason.
     pub fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Self {
@@ -398,6 +412,7 @@ impl CommandError {
             | Self::EmptyRange { .. }
             | Self::NothingToDraw { .. }
             | Self::NothingToExport { .. }
+            | Self::FmuExport(_)
             | Self::StudyAmongOthers { .. } => 2,
             _ if self.scene_errors().is_some() => 2,
             _ => 1,

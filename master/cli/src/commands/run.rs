@@ -14,6 +14,7 @@ use crate::animation;
 use crate::connect::{Connector, Place};
 use crate::interrupt;
 use crate::output::checkpoint::{CheckpointFile, RunIdentity, has_checkpoint, remove_checkpoints};
+use crate::output::worker_logs::{remove_worker_logs, worker_logs};
 use crate::output::{Ending, OutputFolder, Program, StatusFile};
 use crate::plot::Format;
 use crate::results::{About, Recorded, RunRecorder, RunReport, Target, draw};
@@ -30,8 +31,8 @@ use crate::simulate::simulate;
   linchpin run scenes/oscillator.toml --json | jq .statistics.macro_steps
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
-DIR/results.svg and DIR/results.png. A scene with cases runs them one after the other, each in a folder of its own, and
-draws them together. What a run records stays if it fails: run.json says from the first moment on whether the run is under way,
+DIR/results.svg and DIR/results.png. What a worker prints that the run has started is in DIR/workers/NAME.log.
+A scene with cases runs them one after the other, each in a folder of its own, and draws them together. What a run records stays if it fails: run.json says from the first moment on whether the run is under way,
 done, failed or interrupted. Ctrl-C, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU end it in good order, with exit code 128 and
 the number of the signal.")]
 pub struct Arguments {
@@ -57,6 +58,10 @@ pub struct Arguments {
     /// Exit code 1 if a warning speaks against the results, as for a run that fails
     #[arg(long)]
     strict: bool,
+
+    /// Show what the workers print that the run starts, line by line behind their names, in place of the progress bar
+    #[arg(long)]
+    worker_log: bool,
 
     /// No plots
     #[arg(long)]
@@ -218,16 +223,22 @@ impl Job<'_> {
         folder: &OutputFolder,
     ) -> Result<(RunReport, Result<(), CommandError>), CommandError> {
         let output = &self.arguments.output;
-        let connector = Connector::new(self.arguments.place()).stopped_by(self.interrupt.clone());
         let about = About::new(scene, &self.arguments.scene, case);
         let status = StatusFile::new(folder.path(), &self.program, about);
         let page = folder.path().join("animation.html");
         let stale = ["svg", "png"].map(|ending| self.pictures.with_extension(ending));
         let stale = [&stale[..], std::slice::from_ref(&page)].concat();
         let is_first = !status.is_there();
-        let shows_progress = output.shows_progress();
+        let shows_worker_log = self.arguments.worker_log;
+        let shows_progress = output.shows_progress() && !shows_worker_log;
         let identity = self.identity(scene, case);
         let resumed = self.resumed(&identity, folder.path())?;
+        if resumed.is_none() {
+            remove_worker_logs(folder.path()).map_err(CommandError::unwritable(folder.path()))?;
+        }
+        let connector = Connector::new(self.arguments.place())
+            .stopped_by(self.interrupt.clone())
+            .logging(worker_logs(folder.path(), shows_worker_log));
         let run = (identity, resumed);
         let mut recorder =
             RunRecorder::new(scene, folder.path(), stale, status, run, shows_progress)?;

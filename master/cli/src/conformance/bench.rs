@@ -277,6 +277,11 @@ impl<'p> Bench<'p> {
         Ok(self.peer.connect()?)
     }
 
+    /// The same worker in another process, if the kit can start it.
+    pub fn another_process(&self) -> Result<Option<Box<dyn Peer>>, Stop> {
+        Ok(self.peer.another_process()?)
+    }
+
     /// The connection that instances are called over.
     pub fn calls(&self) -> &dyn Contract {
         self.connection.contract()

@@ -6,6 +6,7 @@ mod directions;
 mod energy;
 mod evaluate;
 mod exchange;
+mod exported_states;
 mod half_steps;
 mod instants;
 mod integrals;
@@ -62,6 +63,7 @@ pub fn all() -> Vec<Box<dyn Check>> {
         Box::new(outputs::OutputLists),
         Box::new(evaluate::Evaluate),
         Box::new(replay::Replay),
+        Box::new(exported_states::ExportedStates),
         Box::new(mobility::MobilityMatrix),
         Box::new(velocity::Velocity),
         Box::new(position::Position),

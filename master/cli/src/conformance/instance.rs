@@ -252,6 +252,27 @@ impl<'a> Instance<'a> {
         Ok(())
     }
 
+    /// The present state as bytes.
+    pub fn export(&self) -> Result<v1::ExportedState, Stop> {
+        let request = v1::ExportStateRequest {
+            instance: self.number,
+        };
+        let state = self.calls.export_state(&request)?.state;
+        state.ok_or_else(|| Stop::Answer("ExportState answered no state".to_owned()))
+    }
+
+    /// Goes to a state that another instance has exported, at time `t` (s).
+    pub fn import(&mut self, state: &v1::ExportedState, t: f64) -> Result<(), Stop> {
+        let request = v1::ImportStateRequest {
+            instance: self.number,
+            sequence: self.next_number(),
+            state: Some(state.clone()),
+        };
+        self.calls.import_state(&request)?;
+        self.t = t;
+        Ok(())
+    }
+
     /// Values of an answer, which are as many lists of all outputs as were asked for, and finite.
     pub fn checked(
         &self,

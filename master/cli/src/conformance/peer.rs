@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use linchpin_master::Interrupt;
 use linchpin_master::connection::{
     Access, Connection, Direct, ExchangeStream, ExitMessage, Grpc, Launcher, StartError,
-    TimeLimits, WorkerProcess, new_runtime,
+    TimeLimits, WorkerLogs, WorkerProcess, new_runtime,
 };
 use linchpin_proto::contract::{CallError, Contract};
 use tokio::runtime::Runtime;
@@ -18,6 +18,14 @@ pub trait Peer {
     /// # Errors
     /// [`StartError`] if the worker does not answer.
     fn connect(&self) -> Result<Box<dyn Connection>, StartError>;
+
+    /// The same worker in a process of its own; `None` where it cannot be started once more from here.
+    ///
+    /// # Errors
+    /// [`StartError`] if it does not answer.
+    fn another_process(&self) -> Result<Option<Box<dyn Peer>>, StartError> {
+        Ok(None)
+    }
 
     /// What its process left behind if it has ended.
     fn last_words(&self) -> ExitMessage {
@@ -83,6 +91,8 @@ pub struct Started {
     at: AtAddress,
     process: WorkerProcess,
     _launcher: Launcher,
+    command: Vec<String>,
+    limit: Duration,
 }
 
 /// How long one attempt to reach a starting worker lasts before its process is looked after.
@@ -98,7 +108,7 @@ impl Started {
     /// # Errors
     /// [`StartError`]: no such program, or it ends or keeps silent.
     pub fn new(command: &[String], limit: Duration) -> Result<Self, StartError> {
-        let launcher = Launcher::new()?;
+        let launcher = Launcher::new(WorkerLogs::default())?;
         let process = launcher.start(NAME, command)?;
         let at = AtAddress::new(process.address().to_owned(), Access::default(), limit)?;
         let attempt = TimeLimits {
@@ -125,6 +135,8 @@ impl Started {
             at,
             process,
             _launcher: launcher,
+            command: command.to_vec(),
+            limit,
         })
     }
 }
@@ -132,6 +144,10 @@ impl Started {
 impl Peer for Started {
     fn connect(&self) -> Result<Box<dyn Connection>, StartError> {
         self.at.connect()
+    }
+
+    fn another_process(&self) -> Result<Option<Box<dyn Peer>>, StartError> {
+        Ok(Some(Box::new(Self::new(&self.command, self.limit)?)))
     }
 
     fn last_words(&self) -> ExitMessage {

@@ -5,7 +5,8 @@
 //! * [`part`]: that of one part of a study, and all parts together;
 //! * [`program`]: which program writes, where and since when;
 //! * [`status`]: `run.json`, from the first moment to the end;
-//! * [`study`]: that of a study.
+//! * [`study`]: that of a study;
+//! * [`worker_logs`]: what the workers of a run print.
 
 pub mod checkpoint;
 pub mod folder;
@@ -13,6 +14,7 @@ pub mod part;
 pub mod program;
 pub mod status;
 pub mod study;
+pub mod worker_logs;
 
 pub use folder::OutputFolder;
 pub use program::Program;

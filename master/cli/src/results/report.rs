@@ -117,6 +117,15 @@ impl RunReport {
             )?;
         }
         write_more(velocities.more, "velocities, all changed by less", text)?;
+        let fitted = Worst::of(&statistics.fitted_joints, |own| own.shift.max(own.turn));
+        for own in fitted.shown {
+            writeln!(
+                text,
+                "  joint {:<26} shifted by {:.1e} m, turned by {:.1e} rad at b, to meet the start",
+                own.joint, own.shift, own.turn
+            )?;
+        }
+        write_more(fitted.more, "joints, all fitted by less", text)?;
         write_residuals(&statistics.joints, text)?;
         let verdicts = &statistics.verdicts;
         writeln!(

@@ -32,6 +32,8 @@ pub struct Coupling {
     pub jacobian: Jacobian,
     /// Corrections until they change nothing of note; absent: one, as in S1.
     pub iterations: Option<Iterations>,
+    /// By how much joints may be open at the start, relative to what is measured. Default 1e-9.
+    pub start_tolerance: f64,
 }
 
 impl Coupling {

@@ -49,7 +49,7 @@ fn unknown_keys_are_told_with_the_nearest_one() {
 fn the_keys_of_other_methods_are_not_offered() {
     let text = edited(&[(BETA, "beta = 2e-3\nzzz = 1\nmu = 1")]);
     let shown = parse(&text, ORIGIN, &[]).unwrap_err().to_string();
-    let offered = "it has method, exchanged_degree, loads, macro_step, increment, impacts, degree, index, beta, gamma, jacobian, iterations, \
+    let offered = "it has method, exchanged_degree, loads, macro_step, increment, impacts, start_tolerance, degree, index, beta, gamma, jacobian, iterations, \
                    tolerance, absolute_tolerance, least_step, greatest_step\n";
     assert!(shown.contains(offered), "{shown}");
 }

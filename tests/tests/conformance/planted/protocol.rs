@@ -19,6 +19,9 @@ pub enum Fault {
     SnapshotPerRepeat,
     // Snapshots.
     OneSnapshot,
+    // States that leave.
+    ImportsNothing,
+    ImportsDamaged,
     // Wrong requests.
     TakesUnknownOutputs,
     TakesNaN,
@@ -318,6 +321,37 @@ impl Contract for Faulty {
 
     fn terminate(&self, request: &v1::TerminateRequest) -> Result<v1::TerminateReply, CallError> {
         self.inner.terminate(request)
+    }
+
+    fn export_state(
+        &self,
+        request: &v1::ExportStateRequest,
+    ) -> Result<v1::ExportStateReply, CallError> {
+        self.inner.export_state(request)
+    }
+
+    fn import_state(
+        &self,
+        request: &v1::ImportStateRequest,
+    ) -> Result<v1::ImportStateReply, CallError> {
+        let mut changed = request.clone();
+        changed.sequence = self.number(request.instance, request.sequence);
+        if let Some(state) = &mut changed.state {
+            match self.fault {
+                Fault::ImportsDamaged => {
+                    *state =
+                        v1::ExportedState::sealed(&state.model, &state.writer, state.state.clone());
+                }
+                Fault::ImportsNothing => {
+                    let own = self.inner.export_state(&v1::ExportStateRequest {
+                        instance: request.instance,
+                    })?;
+                    changed.state = own.state;
+                }
+                _ => {}
+            }
+        }
+        self.inner.import_state(&changed)
     }
 
     fn exchange(

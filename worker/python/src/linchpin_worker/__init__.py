@@ -13,6 +13,7 @@ from .failures import Refused, StepFailed
 from .geometry import moment_about, quaternion_of_matrix, wrench_about
 from .host import Host, Limits
 from .inputs import Inputs, Values
+from .integrals import Integrals
 from .marker import Marker, planar_marker, scalar_marker, spatial_marker
 from .parameter import Parameter, Solver
 from .polynomial import Polynomial
@@ -29,6 +30,7 @@ __all__ = [
     "DescriptionError",
     "Host",
     "Inputs",
+    "Integrals",
     "Limits",
     "ListenError",
     "Marker",

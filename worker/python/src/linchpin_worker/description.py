@@ -23,7 +23,9 @@ class Description:
 
     `states` says which output is set by which parameter at the start, for masters that look at the state of a model.
     `exportable_snapshot`: another process can go on from what `save` gives, and all of it is of the types that the module
-    `encoding` lists. `max_input_degree` is the highest degree of an input polynomial that the solver takes.
+    `encoding` lists. `output_integrals`: steps tell integrals of outputs (`Subsystem.integrals`). `impulses`: velocities can
+    jump within a step (`Subsystem.impulse`). `max_input_degree` is the highest degree of an input polynomial that the solver
+    takes.
     """
 
     name: str
@@ -39,6 +41,8 @@ class Description:
     directional_derivatives: bool = False
     joint_loads: bool = False
     exportable_snapshot: bool = False
+    output_integrals: bool = False
+    impulses: bool = False
 
     def __post_init__(self) -> None:
         """Refuses a description that contradicts itself."""
@@ -82,6 +86,8 @@ class Description:
                 directional_derivatives=self.directional_derivatives,
                 interior_outputs=True,
                 exportable_snapshot=self.exportable_snapshot,
+                output_integrals=self.output_integrals,
+                impulses=self.impulses,
             ),
         )
 

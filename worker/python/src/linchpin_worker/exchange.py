@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ._contract import worker_pb2 as pb
 from .failures import CallFailed
-from .impacts import refuse_impacts
+from .impacts import impacts_of
 from .interval import Interval, check_inside, interval_of_evaluation, interval_of_look, interval_of_step
 from .motion import Base, Motion
 
@@ -47,8 +47,7 @@ def _advance_and_look_ahead(motion: Motion, request: pb.ExchangeRequest) -> pb.E
 def _advance(motion: Motion, advance: pb.Advance, reply: pb.ExchangeReply) -> None:
     interval = interval_of_step(advance.t, advance.step)
     check_inside("advance.samples", "sample", advance.samples, advance.step)
-    refuse_impacts(advance)
-    motion.take(advance.signals, advance.integrals)
+    motion.take(advance.signals, advance.integrals, impacts_of(advance))
     reply.advanced.values.extend(motion.advance(interval, advance.instants, pb.OUTPUT_SET_ALL))
     for sample in advance.samples:
         reply.samples.add(values=motion.sample(Interval(advance.t, sample)))
@@ -57,7 +56,6 @@ def _advance(motion: Motion, advance: pb.Advance, reply: pb.ExchangeReply) -> No
 def _look(
     motion: Motion, base: Base, look: pb.Predict, interval: Interval
 ) -> tuple[list[float], list[pb.Outputs], list[pb.Outputs]]:
-    refuse_impacts(look)
-    motion.take(look.signals, look.integrals)
+    motion.take(look.signals, look.integrals, impacts_of(look))
     values, perturbed = motion.look_ahead(base, interval, look.instants, look.perturbed)
     return values, perturbed, motion.look_in_directions(base, interval, look.instants, look.directions)

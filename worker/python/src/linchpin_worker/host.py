@@ -39,6 +39,8 @@ class Limits:
     """s: an instance that was not called for this long gives way when the worker is full."""
     lease: float = 2.0
     """s: an instance whose stream or connections have ended waits this long for another call."""
+    message: int = 16 << 20
+    """Largest message, in bytes, that is accepted or sent."""
 
 
 class Host:

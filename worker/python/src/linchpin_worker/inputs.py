@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections import namedtuple
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -34,6 +35,10 @@ class Values(tuple[float, ...]):
         """
         return self
 
+    def plus(self, others: Values) -> Values:
+        """The sums with the values of other inputs of the same model, one by one: see `Subsystem.impulse`."""
+        return type(self)._make(map(operator.add, self, others))  # type: ignore[attr-defined, no-any-return]
+
 
 class JoinedValues(Values):
     """Values that know those of the joint inputs, which stand behind those of the inputs in `signals`."""
@@ -48,6 +53,13 @@ class JoinedValues(Values):
             joint_load.add(poses, self.signals, loaded)
         made = type(self)._make(loaded)  # type: ignore[attr-defined]
         made.signals = self.signals
+        return made  # type: ignore[no-any-return]
+
+    def plus(self, others: Values) -> Values:
+        """See `Values.plus`; joint inputs are added as well."""
+        made = type(self)._make(map(operator.add, self, others))  # type: ignore[attr-defined]
+        signals: Any = others.signals
+        made.signals = [*map(operator.add, self.signals, signals)]
         return made  # type: ignore[no-any-return]
 
 

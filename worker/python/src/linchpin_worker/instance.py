@@ -12,7 +12,7 @@ from .description import Description
 from .exchange import exchange
 from .exported import opened, sealed
 from .failures import CallFailed, fatal, misuse
-from .impacts import refuse_impacts
+from .impacts import impacts_of
 from .interval import interval_of_step
 from .motion import Base, Motion
 from .signals import Signals
@@ -115,8 +115,7 @@ class Instance:
         def step() -> pb.StepReply:
             meter = Meter(self._motion)
             interval = interval_of_step(request.t, request.step)
-            refuse_impacts(request)
-            self._motion.take(request.signals, request.integrals)
+            self._motion.take(request.signals, request.integrals, impacts_of(request))
             values = self._motion.advance(interval, request.instants, request.outputs)
             self._motion.commit()
             return pb.StepReply(outputs=pb.Outputs(values=values), work=meter.work())
@@ -129,8 +128,7 @@ class Instance:
         def step() -> pb.PerturbedStepReply:
             meter, motion = Meter(self._motion), self._motion
             interval = interval_of_step(request.t, request.step)
-            refuse_impacts(request)
-            motion.take(request.signals, request.integrals)
+            motion.take(request.signals, request.integrals, impacts_of(request))
             outputs = motion.look_ahead_perturbed(Base.COMMITTED, interval, request.instants, request.perturbed)
             derivatives = motion.look_in_directions(Base.COMMITTED, interval, request.instants, request.directions)
             return pb.PerturbedStepReply(outputs=outputs, derivatives=derivatives, work=meter.work())

@@ -10,6 +10,9 @@ from ._contract import worker_pb2 as pb
 from .failures import misuse
 from .readable import number
 
+ROUNDING = 1e-9
+"""Share of a step that a strike at its end may be behind it."""
+
 MAX_INTEGRALS = 8
 """The most integrals of each output that the contract knows."""
 
@@ -26,12 +29,24 @@ class Interval(NamedTuple):
         return self.start + self.length
 
 
+class Strike(NamedTuple):
+    """Impulses of loads within a step, one for each signal, `at` s after its start; empty without any."""
+
+    at: float
+    impulses: Sequence[float]
+
+    def is_until(self, length: float) -> bool:
+        """Whether it happens within this time (s). Where that ends at the strike but for rounding, the strike belongs to it."""
+        return self.at <= length * (1.0 + ROUNDING)
+
+
 class Part(NamedTuple):
-    """A part of a step that is cut, from one instant to the next: times in s after the start of the step."""
+    """A part of a step that is cut: times in s after the start of the step. An instant or a strike ends it, or the step."""
 
     start: float
     end: float
     is_last: bool
+    strike: Strike | None = None
 
 
 def interval_of_step(start: float, length: float) -> Interval:
@@ -57,12 +72,15 @@ def interval_of_evaluation(evaluate: pb.Predict) -> Interval:
     raise misuse("evaluate.step", f"{place}: t must be finite, the length 0; a step is a prediction")
 
 
-def parts(length: float, instants: Sequence[float]) -> Iterator[Part]:
-    """The parts of a step that is cut at `instants`."""
+def parts(length: float, instants: Sequence[float], strikes: Sequence[Strike]) -> Iterator[Part]:
+    """The parts of a step that is cut at `instants` and `strikes`. Where both are at one time, the instant is first."""
+    inside = [strike for strike in strikes if strike.is_until(length)]
+    cuts: list[tuple[float, Strike | None]] = [(instant, None) for instant in instants]
+    cuts += [(min(strike.at, length), strike) for strike in inside]
     start = 0.0
-    for instant in instants:
-        yield Part(start, instant, False)
-        start = instant
+    for end, strike in sorted(cuts, key=lambda cut: cut[0]):
+        yield Part(start, end, False, strike)
+        start = end
     yield Part(start, length, True)
 
 

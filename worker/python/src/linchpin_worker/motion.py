@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from enum import Enum
+from typing import NamedTuple
 
 from ._contract import worker_pb2 as pb
 from .description import Description
 from .encoding import Damaged, NotPortable, decode, encode
 from .failures import fatal, misuse
+from .impacts import NONE, GivenImpacts
 from .inputs import Inputs
-from .interval import Interval, Part, check_inside, check_integrals, parts
+from .integrals import add_part
+from .interval import Interval, Part, Strike, check_inside, check_integrals, parts
 from .readable import number
 from .signals import Signals, find
 from .solver import Solver
@@ -31,6 +34,18 @@ class Base(Enum):
     ADVANCED = "advanced"
 
 
+class Told(NamedTuple):
+    """What a step that is cut tells, as far as it has come."""
+
+    at_end: list[float]
+    integrals: list[float]
+    inside: list[float]
+
+    def values(self) -> list[float]:
+        """All of it, in the order of an answer."""
+        return self.at_end + self.integrals + self.inside
+
+
 class Motion:
     """A subsystem with its signals, and the state that it has for its master.
 
@@ -39,7 +54,8 @@ class Motion:
 
     def __init__(self, subsystem: Subsystem, signals: Signals, description: Description, request: pb.InitializeRequest) -> None:
         known = description.outputs
-        if request.integrated_outputs:
+        integrated = find(known, request.integrated_outputs, "integrated_outputs")
+        if integrated and not description.output_integrals:
             text = f"the model {description.name} does not offer integrals of outputs"
             rule = "leave integrated_outputs empty where the capabilities do not say output_integrals"
             raise misuse("integrated_outputs", f"{text}; {rule}")
@@ -48,28 +64,33 @@ class Motion:
         self._interior = find(known, request.interior_outputs, "interior_outputs")
         self._description = description
         self._signals = signals
-        self.solver = Solver(subsystem, known)
+        self._integrated = len(integrated)
+        self._strikes: Sequence[Strike] = ()
+        self.solver = Solver(subsystem, known, integrated)
         self.committed = self.solver.keep()
         self._advanced = self.committed
         self._previous: Kept | None = None
 
-    def take(self, signals: Iterable[pb.Signal], integrals: int = 0) -> None:
-        """Takes the signals of a request for the steps that follow."""
+    def take(self, signals: Iterable[pb.Signal], integrals: int = 0, impacts: GivenImpacts = NONE) -> None:
+        """Takes the signals of a request, how many integrals it wants, and its impacts for the steps that follow."""
         self._signals.set(signals)
         check_integrals(integrals)
+        self._strikes = impacts.strikes(self._description, len(self._signals))
+        self.solver.integrals.choose(integrals)
 
     def advance(self, interval: Interval, instants: Sequence[float], outputs: pb.OutputSet) -> list[float]:
         """Steps from the committed state, cut at `instants`; `commit` makes the end the committed state."""
         wanted = self._all if outputs == pb.OUTPUT_SET_ALL else self._coupling
         self._go_to(Base.COMMITTED)
-        values = self._step_cut(interval, instants, wanted) if instants else self._step(interval, wanted)
+        values = self._step(interval, wanted, instants)
         self._advanced = self.solver.keep()
         return values
 
     def sample(self, interval: Interval) -> list[float]:
         """All outputs after a shorter step than the advance, from where it started and under its signals."""
         self._go_to(Base.COMMITTED)
-        return self._step(interval, self._all)
+        # Integrals belong to the advance alone.
+        return self._step(interval, self._all)[: len(self._all)]
 
     def commit(self) -> None:
         """Makes the end of the advance the committed state."""
@@ -110,37 +131,39 @@ class Motion:
         self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
     ) -> tuple[list[float], list[pb.Outputs]]:
         """Coupling outputs at the end of `interval` and interior ones at `instants`, and again for every perturbed signal."""
-        if instants and interval.length > 0.0:
+        if self._is_cut(instants) and interval.length > 0.0:
             values, *others = self._look_ahead_cut(base, interval, instants, perturbed)
             self.solver.integrations += 1
             return values, [pb.Outputs(values=other) for other in others]
         self._go_to(base)
         values = self._step(interval, self._coupling)
-        return values, self.look_ahead_perturbed(base, interval, (), perturbed)
+        return values, self._look_ahead_uncut(base, interval, perturbed)
 
     def look_ahead_perturbed(
         self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
     ) -> list[pb.Outputs]:
         """As `look_ahead`, with every perturbed signal in place of the present signal of its input only."""
-        if instants:
+        if self._is_cut(instants):
             # The first one is taken for its internal steps, which the others repeat.
             _, *others = self._look_ahead_cut(base, interval, instants, perturbed)
             return [pb.Outputs(values=other) for other in others]
+        return self._look_ahead_uncut(base, interval, perturbed)
+
+    def _look_ahead_uncut(self, base: Base, interval: Interval, perturbed: Sequence[pb.Signal]) -> list[pb.Outputs]:
         outputs = []
         for signal in perturbed:
             inputs = self._signals.replaced(signal, interval.length)
             self._go_to(base)
             if interval.length > 0.0:
                 self.solver.step_perturbed(interval, inputs)
-            values = self.solver.outputs(interval, inputs.at_end, self._coupling)
-            outputs.append(pb.Outputs(values=values))
+            outputs.append(pb.Outputs(values=self._told(interval, inputs, self._coupling)))
         return outputs
 
     def look_in_directions(
         self, base: Base, interval: Interval, instants: Sequence[float], directions: Sequence[pb.Signal]
     ) -> list[pb.Outputs]:
         """Derivatives of what `look_ahead` tells. Those at an instant are derivatives over the step that ends there."""
-        outputs = self.derivatives(base, interval, directions, self._coupling)
+        outputs = self.derivatives(base, interval, directions, self._coupling, has_integrals=True)
         if interval.length > 0.0:
             check_inside("instants", "instant", instants, interval.length)
             counted = self.solver.derivatives
@@ -153,9 +176,14 @@ class Motion:
         return outputs
 
     def derivatives(
-        self, base: Base, interval: Interval, directions: Sequence[pb.Signal], wanted: Sequence[int]
+        self,
+        base: Base,
+        interval: Interval,
+        directions: Sequence[pb.Signal],
+        wanted: Sequence[int],
+        has_integrals: bool = False,
     ) -> list[pb.Outputs]:
-        """Derivatives of the outputs numbered `wanted` at the end of `interval`, one for each direction."""
+        """Derivatives of the outputs numbered `wanted` at the end of `interval`, and of integrals, one for each direction."""
         if directions and not self._description.directional_derivatives:
             raise misuse("directions", "this model does not offer directional derivatives")
         outputs = []
@@ -164,6 +192,8 @@ class Motion:
             self._go_to(base)
             inputs = self._signals.inputs(interval.length)
             values = self.solver.derivative(interval, inputs, direction, wanted)
+            if has_integrals and interval.length > 0.0:
+                values += self.solver.integrals_over(interval)
             outputs.append(pb.Outputs(values=values))
         return outputs
 
@@ -182,34 +212,40 @@ class Motion:
     def _go_to(self, base: Base) -> None:
         self.solver.go_to(self.committed if base is Base.COMMITTED else self._advanced)
 
-    def _step(self, interval: Interval, wanted: Sequence[int]) -> list[float]:
-        """Outputs after a step from where the solver stands; one of length 0 evaluates."""
+    def _is_cut(self, instants: Sequence[float]) -> bool:
+        return len(instants) > 0 or len(self._strikes) > 0
+
+    def _step(self, interval: Interval, wanted: Sequence[int], instants: Sequence[float] = ()) -> list[float]:
+        """What is told after a step from where the solver stands; one of length 0 evaluates."""
+        if interval.length > 0.0 and self._is_cut(instants):
+            return self._step_cut(interval, instants, wanted)
         inputs = self._signals.inputs(interval.length)
         if interval.length > 0.0:
             self.solver.step(interval, inputs)
-        return self.solver.outputs(interval, inputs.at_end, wanted)
+        return self._told(interval, inputs, wanted)
+
+    def _told(self, interval: Interval, inputs: Inputs, wanted: Sequence[int]) -> list[float]:
+        """Outputs after a step or an evaluation, and the integrals over a step."""
+        values = self.solver.outputs(interval, inputs.at_end, wanted)
+        return values + self.solver.integrals_over(interval) if interval.length > 0.0 else values
 
     def _step_cut(self, interval: Interval, instants: Sequence[float], wanted: Sequence[int]) -> list[float]:
-        """Outputs after a step that is cut at `instants`, then interior ones at each of them."""
+        """Outputs after a step that is cut, its integrals, then interior outputs at each of the `instants`."""
         check_inside("instants", "instant", instants, interval.length)
         self.solver.begin_cut()
         self.solver.integrations += 1
-        inputs, at_end, inside = self._signals.inputs(interval.length), [], []
-        for part in parts(interval.length, instants):
-            own = self._part(interval, part, inputs, wanted, is_repeated=False)
-            if part.is_last:
-                at_end = own
-            else:
-                inside += own
+        inputs, told = self._signals.inputs(interval.length), self._nothing_told()
+        for part in parts(interval.length, instants, self._strikes):
+            self._part(interval, part, inputs, wanted, told)
         self.solver.arrive()
-        return at_end + inside
+        return told.values()
 
     def _look_ahead_cut(
         self, base: Base, interval: Interval, instants: Sequence[float], perturbed: Sequence[pb.Signal]
     ) -> list[list[float]]:
-        """The step as it is and with every perturbed signal, side by side from instant to instant.
+        """The step as it is and with every perturbed signal, side by side from cut to cut.
 
-        Between two instants the perturbed ones repeat the internal steps of the one that is not, from states of their own.
+        Between two cuts the perturbed ones repeat the internal steps of the one that is not, from states of their own.
         """
         check_inside("instants", "instant", instants, interval.length)
         length = interval.length
@@ -218,23 +254,35 @@ class Motion:
         self.solver.begin_cut()
         self._go_to(base)
         states = [self.solver.save()] * len(inputs)
-        inside: list[list[float]] = [[] for _ in inputs]
-        at_end: list[list[float]] = []
-        for part in parts(length, instants):
+        told = [self._nothing_told() for _ in inputs]
+        for part in parts(length, instants, self._strikes):
             for place, own in enumerate(inputs):
                 self.solver.load(states[place])
-                values = self._part(interval, part, own, self._coupling, is_repeated=place > 0)
-                if part.is_last:
-                    at_end.append(values)
-                else:
-                    inside[place] += values
+                self._part(interval, part, own, self._coupling, told[place], is_repeated=place > 0)
+                if not part.is_last:
                     states[place] = self.solver.save()
-        return [last + interior for last, interior in zip(at_end, inside, strict=True)]
+        return [own.values() for own in told]
 
-    def _part(self, interval: Interval, part: Part, inputs: Inputs, wanted: Sequence[int], is_repeated: bool) -> list[float]:
+    def _nothing_told(self) -> Told:
+        return Told([], [0.0] * len(self.solver.integrals), [])
+
+    def _part(
+        self, interval: Interval, part: Part, inputs: Inputs, wanted: Sequence[int], told: Told, is_repeated: bool = False
+    ) -> None:
         """Steps over one part, and tells the outputs `wanted` at the end of the step or the interior ones before."""
         own = Interval(interval.start + part.start, part.end - part.start)
-        shifted = inputs.starting_at(part.start, own.length)
-        self.solver.step_under_way(own, shifted, is_repeated)
+        # Strikes may be at the start, at the end or at one instant.
+        if own.length > 0.0:
+            self.solver.step_under_way(own, inputs.starting_at(part.start, own.length), is_repeated)
+            of_part = self.solver.integrals_over(own)
+            if of_part:
+                shares = part.start / interval.length, part.end / interval.length
+                add_part(*shares, of_part, told.integrals, self._integrated)
         at_part_end = Interval(interval.start, part.end)
-        return self.solver.outputs(at_part_end, inputs(part.end), wanted if part.is_last else self._interior)
+        if part.strike is not None:
+            if part.strike.impulses:
+                self.solver.jump(at_part_end, inputs(part.end), self._signals.impulses(part.strike.impulses))
+        elif part.is_last:
+            told.at_end.extend(self.solver.outputs(at_part_end, inputs(part.end), wanted))
+        else:
+            told.inside.extend(self.solver.outputs(at_part_end, inputs(part.end), self._interior))

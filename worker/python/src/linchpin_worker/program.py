@@ -17,6 +17,9 @@ from .host import Host, Limits
 from .server import Server
 from .subsystem import Subsystem
 
+LARGEST_MESSAGE = 1024
+"""MiB that may be asked for, as of the program `linchpin`."""
+
 EPILOG = """examples:
   python worker.py --listen 127.0.0.1:50051
   python worker.py --listen unix:/run/linchpin/mass1.sock
@@ -34,14 +37,14 @@ def serve(*models: type[Subsystem], arguments: Sequence[str] | None = None) -> N
     limits = Limits()
     given = parser(limits).parse_args(arguments)
     logging.basicConfig(level=logging.INFO, format="%(levelname)s %(message)s", stream=sys.stderr)
-    limits = Limits(instances=given.max_instances, lease=given.lease)
+    limits = Limits(instances=given.max_instances, lease=given.lease, message=given.max_message << 20)
     host = Host(*models, limits=limits)
     # A signal may arrive at any place of this thread, also while it begins to wait: the lock of an event could be its own.
     ends: queue.SimpleQueue[None] = queue.SimpleQueue()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: ends.put(None))
     try:
-        server = Server(host, given.listen, plain_text=given.plain_text, certificates=given.certificates)
+        server = Server(host, given.listen, plain_text=given.plain_text, certificates=given.certificates, token=given.token)
     except ListenError as error:
         sys.exit(f"error: {error}")
     with server:
@@ -66,8 +69,14 @@ def parser(limits: Limits) -> argparse.ArgumentParser:
     either = own.add_mutually_exclusive_group()
     either.add_argument("--certificates", metavar="FOLDER", help=folder)
     either.add_argument("--plain-text", action="store_true", help=reach)
+    secret = "file with a secret that masters must show, for an address that other users of this machine can reach"
+    add("--token", metavar="FILE", help=f"{secret}; only its user may read it")
     most = f"most instances at a time (default {limits.instances})"
     add("--max-instances", metavar="N", type=readable(positive), default=limits.instances, help=most)
+    largest = (
+        f"largest message in MiB (default {limits.message >> 20}); exchanges have less by far, exported states may have more"
+    )
+    add("--max-message", metavar="MIB", type=readable(mebibytes), default=limits.message >> 20, help=largest)
     lease = f"time in s that an instance waits for another call when what held it has ended (default {limits.lease:g})"
     add("--lease", metavar="S", type=readable(seconds), default=limits.lease, help=lease)
     ends = "end when the standard input is closed; implied on a Unix socket if the input is a pipe, as from a master"
@@ -91,6 +100,13 @@ def positive(text: str) -> int:
     """A number of instances."""
     if not text.isdecimal() or int(text) < 1:
         raise ValueError(f'"{text}" must be a whole number of at least 1')
+    return int(text)
+
+
+def mebibytes(text: str) -> int:
+    """The size of a message."""
+    if not text.isdecimal() or not 1 <= int(text) <= LARGEST_MESSAGE:
+        raise ValueError(f'"{text}" must be a whole number of MiB from 1 to {LARGEST_MESSAGE}')
     return int(text)
 
 

@@ -22,9 +22,7 @@ from .failures import CallFailed, Denied, NoInstance
 from .hold import Hold, connection
 from .host import Host
 from .status import abort
-
-MESSAGE_LIMIT = 16 << 20
-"""Largest message that is accepted, in bytes."""
+from .token import Demanding, read_token
 
 GRACE = 0.5
 """s that calls under way have to finish after a shutdown; then they are cancelled."""
@@ -55,9 +53,20 @@ UNARY: dict[str, Callable[..., Any]] = {
 class Server:
     """A worker that listens. It serves from the start of a `with` statement to its end."""
 
-    def __init__(self, host: Host, address: Address, plain_text: bool = False, certificates: str | None = None) -> None:
-        """Begins to listen; `ListenError` if that cannot be. With a folder of certificates, masters have to show one."""
+    def __init__(
+        self,
+        host: Host,
+        address: Address,
+        plain_text: bool = False,
+        certificates: str | None = None,
+        token: str | None = None,
+    ) -> None:
+        """Begins to listen; `ListenError` if that cannot be.
+
+        With a folder of certificates, masters have to show one; with the file of a token, that.
+        """
         address.check(plain_text, certificates is not None)
+        interceptors = [Demanding(read_token(token))] if token is not None else []
         secure = credentials(certificates) if certificates is not None else None
         self._host = host
         # A stream keeps its thread until it ends; threads are made as they are needed.
@@ -65,10 +74,10 @@ class Server:
         options = [
             # A second worker must not take half of the connections to a port.
             ("grpc.so_reuseport", 0),
-            ("grpc.max_receive_message_length", MESSAGE_LIMIT),
-            ("grpc.max_send_message_length", MESSAGE_LIMIT),
+            ("grpc.max_receive_message_length", host.limits.message),
+            ("grpc.max_send_message_length", host.limits.message),
         ]
-        self._server = grpc.server(self._threads, options=options)
+        self._server = grpc.server(self._threads, options=options, interceptors=interceptors)
         self._server.add_generic_rpc_handlers((self._worker(), health()))
         # The socket is for the own user alone, whatever the umask was.
         before = os.umask(0o177)
@@ -118,6 +127,8 @@ class Server:
     def _answer(self, call: Callable[..., Any], request: Any, context: grpc.ServicerContext) -> Any:
         """Answers a unary call; its connection holds the instance that it names, if that is the caller's."""
         owner = owner_of(context)
+        # gRPC forgets it when the call has ended; one that had ended before it came here holds nothing.
+        peer = context.peer()
         names_instance = "instance" in request.DESCRIPTOR.fields_by_name
         try:
             if names_instance:
@@ -132,8 +143,8 @@ class Server:
         except CallFailed as failed:
             return abort(context, failed)
         finally:
-            if names_instance:
-                self._host.hold(request.instance, connection(context.peer(), self.address.path))
+            if names_instance and peer:
+                self._host.hold(request.instance, connection(peer, self.address.path))
 
     def _exchange(self, requests: Iterator[pb.ExchangeRequest], context: grpc.ServicerContext) -> Iterator[pb.ExchangeReply]:
         """The turns of a stream, which holds its instance from the first turn on, and ends where it is not there."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ._contract import worker_pb2 as pb
 from .description import Description
 from .failures import misuse
-from .inputs import Inputs, values_type
+from .inputs import Inputs, Values, values_type
 from .joint_load import JointLoad
 from .polynomial import Polynomial
 from .variable import Variable
@@ -77,6 +77,13 @@ class Signals:
                 if driven.default is None:
                     raise misuse("signals", f'input "{driven.name}" has neither a signal nor a default')
                 self._polynomials[driven.input] = driven.default
+
+    def impulses(self, loads: Sequence[float]) -> Values:
+        """Impulses `loads`, one for each signal, as values of the inputs; 0 for those that are not driven."""
+        values = [0.0] * len(self._polynomials)
+        for driven, load in zip(self._driven, loads, strict=True):
+            values[driven.input] = load
+        return self._make(values)
 
     def inputs(self, step: float) -> Inputs:
         """The present inputs over a step of length `step` (s)."""

@@ -12,6 +12,7 @@ from . import readable
 from .cancel import is_cancelled
 from .failures import StepFailed, fatal, recoverable
 from .inputs import Inputs, Values
+from .integrals import Integrals
 from .interval import Interval
 from .state import Kept, State
 from .subsystem import Subsystem
@@ -27,9 +28,12 @@ log = logging.getLogger("linchpin_worker")
 class Solver:
     """A subsystem with the number of the state that it is in, and counts of what it did."""
 
-    def __init__(self, subsystem: Subsystem, outputs: Sequence[Variable]) -> None:
+    def __init__(self, subsystem: Subsystem, outputs: Sequence[Variable], integrated: Sequence[int] = ()) -> None:
         self._subsystem = subsystem
         self._names = [variable.name for variable in outputs]
+        self.integrals = Integrals(self._names, integrated)
+        if integrated:
+            subsystem.integrals = self.integrals
         self._numbers = count(1)
         self._stands_at = 0
         self._last_step: tuple[Interval, int] | None = None
@@ -86,11 +90,17 @@ class Solver:
     def step_under_way(self, interval: Interval, inputs: Inputs, is_repeated: bool = False) -> None:
         """Steps over a part of a step."""
         self._stands_at = NOWHERE
+        self.integrals.begin(interval.length)
         method = self._subsystem.advance_perturbed if is_repeated else self._subsystem.advance
         guarded(interval, lambda: method(interval.start, interval.length, inputs))
         if is_cancelled():
             # It may have ended anywhere.
             raise fatal("the step was cancelled", interval.start, interval.length)
+
+    def jump(self, interval: Interval, values: Values, impulses: Values) -> None:
+        """Lets velocities jump at the end of `interval`, where the inputs are `values`."""
+        self._stands_at = NOWHERE
+        guarded(interval, lambda: self._subsystem.impulse(interval.end, values, impulses))
 
     def begin_cut(self) -> None:
         """A step that is cut is not repeated by one that is not."""
@@ -112,8 +122,24 @@ class Solver:
             if self._last_step != (interval, self._stands_at):
                 self._last_step = None
         self._stands_at = NOWHERE
+        self.integrals.begin(interval.length)
         told = guarded(interval, lambda: self._subsystem.derivative(interval.start, interval.length, inputs, direction))
         return self._numbers_of("derivative", told, wanted, interval)
+
+    def integrals_over(self, interval: Interval) -> list[float]:
+        """Integrals over the step, or the part of one, that was taken last, or derivatives of them."""
+        if len(self.integrals) == 0:
+            return []
+        values = guarded(interval, self.integrals.told)
+        if len(values) != len(self.integrals):
+            rule = "end with integrals.set, or call integrals.add or add_along for each internal step"
+            text = f"the step told {len(values)} integrals, {len(self.integrals)} are asked for; {rule}"
+            raise fatal(text, interval.start, interval.length)
+        for place, value in enumerate(values):
+            if not math.isfinite(value):
+                name = self.integrals.of(place)
+                raise self._not_finite(f"an integral of {name}", name, value, interval)
+        return values
 
     def _numbers_of(
         self, method: str, told: Sequence[float] | Mapping[str, float], wanted: Sequence[int], interval: Interval
@@ -132,11 +158,12 @@ class Solver:
         numbers = guarded(interval, lambda: [float(number) for number in found])
         if not all(map(math.isfinite, numbers)):
             place = next(place for place, number in enumerate(numbers) if not math.isfinite(number))
-            raise self._not_finite(names[wanted[place]], numbers[place], interval)
+            name = names[wanted[place]]
+            raise self._not_finite(name, name, numbers[place], interval)
         return numbers
 
-    def _not_finite(self, name: str, number: float, interval: Interval) -> Exception:
-        text = f"{name} = {readable.number(number)} at t = {readable.number(interval.end)} s: it must be finite"
+    def _not_finite(self, what: str, name: str, number: float, interval: Interval) -> Exception:
+        text = f"{what} = {readable.number(number)} at t = {readable.number(interval.end)} s: it must be finite"
         if interval.length > 0.0:
             return recoverable(text, interval.end, interval.length, name)
         return fatal(text, interval.end, 0.0, name)

@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 from .cancel import is_cancelled
 from .description import Description, DescriptionError
 from .inputs import Inputs, Values
+from .integrals import Integrals
 from .setup import Setup
 
 NEEDED = ("advance", "outputs", "save", "load")
@@ -28,6 +29,13 @@ class Subsystem:
 
     internal_steps: int = 0
     """Internal steps of the solver since the start, for the statistics; the solver counts them itself."""
+
+    integrals: Integrals = Integrals((), ())
+    """Integrals of outputs over the step under way, where the description says `output_integrals`.
+
+    `advance`, `advance_perturbed` and, over a step, `derivative` tell all of them, those of the derivatives for the last; with
+    `len(self.integrals)` = 0 nothing is asked for. They begin at 0 with every step and belong to no state.
+    """
 
     def __init__(self, setup: Setup) -> None:
         """Makes an instance in its initial state."""
@@ -88,6 +96,15 @@ class Subsystem:
         """
         raise NotImplementedError
 
+    def impulse(self, t: float, u: Values, impulses: Values) -> None:
+        """Velocities jump at `t` (s) by what loads of the values `impulses`, added to the inputs `u`, add to accelerations.
+
+        `impulses` has one for each input, 0 for those that are no loads; for a mass the jump is impulse over mass. Where it is
+        not so plain, accelerations under `u.plus(impulses)` minus those under `u` are the jump. Positions stay, and constraints
+        of the solver keep their velocities. Only where the description says `impulses`.
+        """
+        raise NotImplementedError
+
     @classmethod
     def described(cls, parameters: Mapping[str, object]) -> Description:
         """The description where it depends on parameters: here those of a scene, with defaults, not yet checked."""
@@ -99,7 +116,11 @@ def check_model(model: type[Subsystem]) -> Description:
     description = getattr(model, "description", None)
     if not isinstance(description, Description):
         raise DescriptionError(f"{model.__name__} has no description; give it one: description = Description(..)")
-    needed = (*NEEDED, "derivative") if description.directional_derivatives else NEEDED
+    needed = [*NEEDED]
+    if description.directional_derivatives:
+        needed.append("derivative")
+    if description.impulses:
+        needed.append("impulse")
     for method in needed:
         if getattr(model, method) is getattr(Subsystem, method):
             raise DescriptionError(f'model "{description.name}": {model.__name__} has no method {method}')

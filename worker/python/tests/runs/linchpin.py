@@ -26,13 +26,13 @@ def linchpin(*arguments, folder):
 
 
 def columns(scene, settings=(), changes=()):
-    """The columns of the results of a scene of the examples, by their names, under `--set` and with parts replaced."""
+    """The columns of the results of a scene, seen from the examples, by their names, under `--set` and with parts replaced."""
     text = (EXAMPLES / scene).read_text()
     for pattern, replacement in changes:
         text, count = re.subn(pattern, replacement, text, flags=re.MULTILINE)
         assert count > 0, pattern
     with tempfile.TemporaryDirectory() as out:
-        file = pathlib.Path(out, scene)
+        file = pathlib.Path(out, "scene.toml")
         file.write_text(text.replace('["python3", "', f'["python3", "{EXAMPLES}/'))
         sets = [word for setting in settings for word in ("--set", setting)]
         linchpin("run", file, "--out", f"{out}/results", "--no-plots", "--quiet", *sets, folder=out)

@@ -36,6 +36,44 @@ class Runs(unittest.TestCase):
                 self.assert_near(found, expected, (".lambda", 1e-8), (".a", 1e-8), 1e-9)
                 self.assertEqual(columns("oscillator.toml", settings), found, "a second run has other bits")
 
+    def test_integrals_of_a_mass_in_python_are_those_of_the_built_in_mass(self):
+        """Both solve exactly, so only rounding tells them apart; instants in their place make another run."""
+        integrating = [(r'^command = .*oscillator.py"\]', 'command = ["python3", "../tests/models.py"]\nmodel = "oscillator"')]
+        for degree in (3, 4, 5):
+            settings = [f"coupling.degree={degree}", 'coupling.moments="integrals"']
+            with self.subTest(degree=degree):
+                found = columns("oscillator.toml", settings, integrating)
+                expected = columns("oscillator.toml", settings, BUILT_IN)
+                self.assert_near(found, expected, (".lambda", 1e-8), (".a", 1e-8), 1e-10)
+                instants = columns("oscillator.toml", settings[:1], integrating)
+                self.assertNotEqual(instants["link.lambda"], found["link.lambda"])
+
+    def test_integrals_of_links_in_python_are_those_of_the_built_in_links(self):
+        """As further unknowns of SciPy's method, and by the weights of a Runge-Kutta method."""
+        settings = ["coupling.degree=3", 'coupling.moments="integrals"']
+        found, expected = columns("two_links.toml", settings), columns("two_links.toml", settings, LINKS_BUILT_IN)
+        self.assert_near(found, expected, ("_ax", 1e-6), ("_ay", 1e-6), ("_alpha", 1e-6), 1e-8)
+
+    def test_an_impact_goes_through_joints_to_a_rod_in_python(self):
+        """The block on the end of the rod hits the floor; the rod jumps as the built-in one does that takes the same steps."""
+        scene = "../tests/runs/stop.toml"
+        command = r'^command = .*rod.py"\]'
+        fixed = 'model = "planar-body"\nsolver = { kind = "rk4", step = 5e-4 }'
+        found, expected = columns(scene), columns(scene, changes=[(command, fixed)])
+        self.assertEqual(sum(found["lower.impacts"]), 1.0)
+        for name in (
+            "upper.end_rate",
+            "upper.end_vy",
+            "lower.centre_rate",
+            "lower.impacts",
+            "lower.impulse",
+            "lower.impact_loss",
+        ):
+            self.assertLess(difference(found[name], expected[name]), 1e-9, name)
+        # Forces alone make another motion.
+        forces = columns(scene, ['coupling.impacts="forces"'])
+        self.assertGreater(difference(forces["upper.end_rate"], expected["upper.end_rate"]), 1e-2)
+
     def test_steps_that_vary_are_taken_back_and_taken_again(self):
         settings = ["coupling.method=weighted", "coupling.macro_step=1e-3", "coupling.tolerance=1e-7"]
         found, expected = columns("oscillator.toml", settings), columns("oscillator.toml", settings, BUILT_IN)

@@ -46,10 +46,7 @@ impl Check for Repeats {
             Grade::Fail,
             "a repeated Step is answered otherwise",
         );
-        let other = v1::StepRequest {
-            signals: bench.unloaded().signals(step),
-            ..request.clone()
-        };
+        let other = with_other_content(bench, &request);
         self.refuse_other_content(bench, &instance, &other, verdict);
         for (what, sequence) in [
             ("a number that was skipped to", request.sequence + 2),
@@ -95,6 +92,16 @@ impl Repeats {
                 "a repeated number with another content is answered and not refused",
             ),
         }
+    }
+}
+
+/// Other signals, and another length where the model has no inputs: its requests of one length are all the same.
+fn with_other_content(bench: &Bench<'_>, request: &v1::StepRequest) -> v1::StepRequest {
+    let is_driven = !request.signals.is_empty();
+    v1::StepRequest {
+        signals: bench.unloaded().signals(request.step),
+        step: request.step * if is_driven { 1.0 } else { 0.5 },
+        ..request.clone()
     }
 }
 

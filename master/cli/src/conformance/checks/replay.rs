@@ -98,7 +98,7 @@ fn from(
 }
 
 /// Outputs after each of several steps of unequal lengths; `number` tells their inputs from others.
-fn march(
+pub(super) fn march(
     bench: &Bench<'_>,
     instance: &mut Instance<'_>,
     number: usize,
