@@ -20,7 +20,7 @@ fn assert_recovers(workshop: &Workshop, settings: &[&str], subsystem: &str, sign
     let mut running = workshop.start(&run("out", settings));
     for share in [4, 2] {
         wait_for_bytes(&mut running, workshop, "out", expected.len() as u64 / share);
-        send(&running, subsystem, signal);
+        send(&mut running, subsystem, signal);
     }
     let outcome = running.wait();
     outcome
@@ -91,7 +91,7 @@ fn whatever_the_method_asks_for() {
 fn unary_calls_have_it_as_well() {
     let workshop = workshop(OSCILLATOR);
     let settings = [
-        "scene.t_end=8",
+        "scene.t_end=4",
         "subsystem.*.calls=unary",
         "run.export_every=30",
     ];
@@ -103,7 +103,7 @@ fn unary_calls_have_it_as_well() {
 #[test]
 fn a_worker_that_exports_nothing_repeats_all_steps() {
     let workshop = workshop(&with_python_worker());
-    let settings = ["scene.t_end=8", "run.recoveries=2"];
+    let settings = ["scene.t_end=3", "run.recoveries=2"];
     let repeated = assert_recovers(&workshop, &settings, "mass2", Signal::KILL);
     assert!(repeated > 100, "{repeated}");
 }
@@ -149,7 +149,7 @@ fn a_worker_with_other_bits_ends_the_run() {
     let settings = ["scene.t_end=1000", "run.export_every=1000000"];
     let mut running = workshop.start(&run("out", &settings));
     running.wait_for_rows("out");
-    send(&running, "mass1", Signal::KILL);
+    send(&mut running, "mass1", Signal::KILL);
     running.wait().fails(
         1,
         &[
@@ -230,7 +230,7 @@ fn a_loss_ends_the_run_if_the_scene_says_so() {
     let workshop = workshop(OSCILLATOR);
     let mut running = workshop.start(&run("out", &["scene.t_end=1000", "run.recoveries=0"]));
     running.wait_for_rows("out");
-    send(&running, "mass2", Signal::KILL);
+    send(&mut running, "mass2", Signal::KILL);
     let outcome = running.wait();
     outcome.fails(
         1,
@@ -255,7 +255,7 @@ fn a_worker_that_cannot_be_replaced_ends_the_run_with_both_reasons() {
     running.wait_for_rows("out");
     let workers = running.workers("/mass1");
     assert_eq!(workers.len(), 1, "{workers:?}");
-    send(&running, "mass1", Signal::KILL);
+    send(&mut running, "mass1", Signal::KILL);
     running.wait().fails(
         1,
         &[

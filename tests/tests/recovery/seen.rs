@@ -14,10 +14,11 @@ pub fn wait_for_bytes(running: &mut Running, workshop: &Workshop, folder: &str, 
     });
 }
 
-/// Sends a signal to the worker of a subsystem, which has one process now.
+/// Sends a signal to the worker of a subsystem, as soon as it has one process: the place of one that was lost may just be taken.
 #[track_caller]
-pub fn send(running: &Running, subsystem: &str, signal: Signal) {
-    let workers = running.workers(&format!("/{subsystem}"));
-    assert_eq!(workers.len(), 1, "{workers:?}");
+pub fn send(running: &mut Running, subsystem: &str, signal: Signal) {
+    let name = format!("/{subsystem}");
+    running.wait_until("one worker", |running| running.workers(&name).len() == 1);
+    let workers = running.workers(&name);
     kill_process(Pid::from_raw(workers[0]).unwrap(), signal).unwrap();
 }
