@@ -268,6 +268,40 @@ fn serve(fmi: &str) {
     }
 }
 
+/// Workers outside of the importer's process: one that the scene starts, and one that runs already.
+#[test]
+fn workers_of_commands_and_addresses_take_part() {
+    let (workshop, elsewhere) = (Workshop::new(), Workshop::new());
+    let linchpin = workshop.command::<&str>(&[]).get_program().to_owned();
+    let socket = elsewhere.path().join("standing.sock");
+    let address = format!("unix:{}", socket.display());
+    let mut standing = elsewhere.start(&["worker", "--listen", &address]);
+    standing.wait_until("the socket", |_| socket.exists());
+    let started = format!(
+        "command = [{:?}, \"worker\", \"--exit-with-stdin\"]",
+        linchpin
+    );
+    let served = |name: &str, by: &str| {
+        let name = format!("name = {name:?}\n");
+        [name.clone(), format!("{name}{by}\n")]
+    };
+    let [mass1, started] = served("mass1", &started);
+    let [mass2, standing_by] = served("mass2", &format!("address = {address:?}"));
+    let scene = { OSCILLATOR.replacen(&mass1, &started, 1) }.replacen(&mass2, &standing_by, 1);
+    assert!(
+        scene.contains(&started) && scene.contains(&standing_by),
+        "{scene}"
+    );
+    workshop.write("scene.toml", &scene);
+    let settings = ["--set", "scene.t_end=0.05"];
+    let export = ["export", "scene.toml", "scene.fmu"];
+    workshop.run(&[&export, &settings[..]].concat()).succeeds();
+    let found = drive(&workshop, &["run", "scene.fmu", "1e-2", "0.05"]);
+    let (most, compared) = difference(&found, &rows(&workshop, &settings));
+    assert!(compared > 20, "{compared}");
+    assert_eq!(most, 0.0);
+}
+
 #[test]
 fn what_an_importer_does_wrong_is_told_by_its_logger() {
     for fmi in ["2", "3"] {

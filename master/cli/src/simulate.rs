@@ -98,7 +98,10 @@ pub fn simulate<R: Recorder>(
 }
 
 /// Starts the run, at its start or where it was stopped, once more where a worker is lost meanwhile: nothing is computed yet that would be lost with it.
-fn start(
+///
+/// # Errors
+/// What stands against it.
+pub fn start(
     scene: &Scene,
     connector: &Connector,
     options: &Options,

@@ -6,6 +6,7 @@ use linchpin::connect::{Connector, Place};
 use linchpin::export::fmu::contents::{find_parameter, set_parameter};
 use linchpin::export::fmu::variables::number_of;
 use linchpin::export::fmu::{Contents, FmuExportError};
+use linchpin::simulate;
 use linchpin_master::run::checkpoint::Checkpoint;
 use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
@@ -59,6 +60,14 @@ pub enum ComponentError {
         kind: &'static str,
         /// The number.
         reference: u32,
+    },
+    /// As many values as variables are wanted, since none is an array.
+    #[error("{values} values for {variables} variables, none of which is an array")]
+    WrongCount {
+        /// Number of variables.
+        variables: usize,
+        /// Number of values.
+        values: usize,
     },
     /// A parameter that is set after the start.
     #[error("parameter \"{0}\" is set after the start; it can be set before that only")]
@@ -231,9 +240,7 @@ impl Component {
 
 fn start(scene: &Scene) -> Result<CoSimulation, ComponentError> {
     let connector = Connector::new(Place::InProcess);
-    connector.begin(scene);
-    let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
-    let started = CoSimulation::start(scene, &mut connect, &Options::default());
+    let started = simulate::start(scene, &connector, &Options::default(), None);
     Ok(started.map_err(Box::new)?)
 }
 

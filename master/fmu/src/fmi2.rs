@@ -8,8 +8,8 @@ use std::ffi::{c_char, c_int, c_void};
 
 pub use others::*;
 
-use crate::instance::{Instance, Logger, Logger2, Status, end, get, guarded, set, text};
-use crate::states;
+use crate::instance::{Instance, Logger, Logger2, Status, get, guarded, life_functions, set, text};
+use crate::states::state_functions;
 
 /// `fmi2Boolean`.
 pub type Boolean = c_int;
@@ -62,12 +62,6 @@ pub unsafe extern "C" fn fmi2Instantiate(
     Instance::make(&name, &guid, &resources, logger, kind == CO_SIMULATION)
 }
 
-/// Ends an instance.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeInstance(instance: *mut c_void) {
-    unsafe { end(instance) }
-}
-
 /// The times of the experiment.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetupExperiment(
@@ -86,29 +80,6 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterInitializationMode(instance: *mut c_void) -> Status {
     unsafe { guarded(instance, |_| Ok(())) }
-}
-
-/// Starts the scene.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2ExitInitializationMode(instance: *mut c_void) -> Status {
-    unsafe { guarded(instance, |own| own.component.start().map(|_| ())) }
-}
-
-/// The simulation is over; the values stay.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Terminate(instance: *mut c_void) -> Status {
-    unsafe { guarded(instance, |_| Ok(())) }
-}
-
-/// As after `fmi2Instantiate`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2Reset(instance: *mut c_void) -> Status {
-    unsafe {
-        guarded(instance, |own| {
-            own.component.reset();
-            Ok(())
-        })
-    }
 }
 
 /// Values of outputs and parameters.
@@ -133,56 +104,6 @@ pub unsafe extern "C" fn fmi2SetReal(
     unsafe { set(instance, references, count, values) }
 }
 
-/// Takes the present state; one that is there already is replaced.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(instance: *mut c_void, state: *mut *mut c_void) -> Status {
-    unsafe { states::take(instance, state) }
-}
-
-/// Goes back to a state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetFMUstate(instance: *mut c_void, state: *mut c_void) -> Status {
-    unsafe { states::give_back(instance, state) }
-}
-
-/// Ends a state, and leaves null in its place.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(_: *mut c_void, state: *mut *mut c_void) -> Status {
-    unsafe { states::end(state) }
-}
-
-/// Bytes that a state takes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> Status {
-    unsafe { states::size(instance, state, size) }
-}
-
-/// Writes a state as bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SerializeFMUstate(
-    instance: *mut c_void,
-    state: *mut c_void,
-    bytes: *mut u8,
-    size: usize,
-) -> Status {
-    unsafe { states::write(instance, state, bytes, size) }
-}
-
-/// Reads a state from bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
-    instance: *mut c_void,
-    bytes: *const u8,
-    size: usize,
-    state: *mut *mut c_void,
-) -> Status {
-    unsafe { states::read(instance, bytes, size, state) }
-}
-
 /// A communication step.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2DoStep(
@@ -192,4 +113,11 @@ pub unsafe extern "C" fn fmi2DoStep(
     _keeps_no_state_before: Boolean,
 ) -> Status {
     unsafe { guarded(instance, |own| own.component.step(t, step)) }
+}
+
+life_functions! { fmi2FreeInstance fmi2ExitInitializationMode fmi2Terminate fmi2Reset }
+
+state_functions! {
+    fmi2GetFMUstate fmi2SetFMUstate fmi2FreeFMUstate
+    fmi2SerializedFMUstateSize fmi2SerializeFMUstate fmi2DeSerializeFMUstate
 }

@@ -8,8 +8,11 @@ use std::ffi::{c_char, c_void};
 
 pub use others::*;
 
-use crate::instance::{ERROR, Instance, Logger, Logger3, OK, Status, end, get, guarded, set, text};
-use crate::states;
+use crate::component::ComponentError;
+use crate::instance::{
+    Instance, Logger, Logger3, OK, Status, get, guarded, life_functions, set, text,
+};
+use crate::states::state_functions;
 
 /// Version of the standard.
 #[unsafe(no_mangle)]
@@ -17,8 +20,16 @@ pub extern "C" fn fmi3GetVersion() -> *const c_char {
     c"3.0".as_ptr()
 }
 
-fn logger(logger: Option<Logger3>, environment: *mut c_void) -> Logger {
-    logger.map_or(Logger::None, |logger| Logger::Three(logger, environment))
+/// An instance, if it is for co-simulation; null if it cannot be made.
+unsafe fn instantiate(
+    [name, token, resources]: [*const c_char; 3],
+    (log, environment): (Option<Logger3>, *mut c_void),
+    is_co_simulation: bool,
+) -> *mut c_void {
+    // SAFETY: the importer gives texts that end with 0.
+    let [name, token, resources] = [name, token, resources].map(|own| unsafe { text(own) });
+    let logger = log.map_or(Logger::None, |log| Logger::Three(log, environment));
+    Instance::make(&name, &token, &resources, logger, is_co_simulation)
 }
 
 /// A new instance; null if it cannot be made.
@@ -37,10 +48,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     log: Option<Logger3>,
     _update: *const c_void,
 ) -> *mut c_void {
-    // SAFETY: the importer gives texts that end with 0.
-    let (name, token, resources) = unsafe { (text(name), text(token), text(resources)) };
-    let logger = logger(log, environment);
-    Instance::make(&name, &token, &resources, logger, true)
+    unsafe { instantiate([name, token, resources], (log, environment), true) }
 }
 
 /// There is no model exchange.
@@ -54,10 +62,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
     environment: *mut c_void,
     log: Option<Logger3>,
 ) -> *mut c_void {
-    // SAFETY: as above.
-    let (name, token, resources) = unsafe { (text(name), text(token), text(resources)) };
-    let logger = logger(log, environment);
-    Instance::make(&name, &token, &resources, logger, false)
+    unsafe { instantiate([name, token, resources], (log, environment), false) }
 }
 
 /// There is no scheduled execution.
@@ -74,16 +79,7 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _lock: *const c_void,
     _unlock: *const c_void,
 ) -> *mut c_void {
-    // SAFETY: as above.
-    let (name, token, resources) = unsafe { (text(name), text(token), text(resources)) };
-    let logger = logger(log, environment);
-    Instance::make(&name, &token, &resources, logger, false)
-}
-
-/// Ends an instance.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeInstance(instance: *mut c_void) {
-    unsafe { end(instance) }
+    unsafe { instantiate([name, token, resources], (log, environment), false) }
 }
 
 /// Takes the times of the experiment; parameters may be set from here on as before.
@@ -100,27 +96,9 @@ pub unsafe extern "C" fn fmi3EnterInitializationMode(
     unsafe { guarded(instance, |own| own.component.set_up(start, stop)) }
 }
 
-/// Starts the scene.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitInitializationMode(instance: *mut c_void) -> Status {
-    unsafe { guarded(instance, |own| own.component.start().map(|_| ())) }
-}
-
-/// The simulation is over; the values stay.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Terminate(instance: *mut c_void) -> Status {
-    unsafe { guarded(instance, |_| Ok(())) }
-}
-
-/// As after instantiation.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3Reset(instance: *mut c_void) -> Status {
-    unsafe {
-        guarded(instance, |own| {
-            own.component.reset();
-            Ok(())
-        })
-    }
+unsafe fn refuse_count(instance: *mut c_void, variables: usize, values: usize) -> Status {
+    let error = ComponentError::WrongCount { variables, values };
+    unsafe { guarded(instance, |_| Err(error)) }
 }
 
 /// Values of outputs, parameters and the time. No variable is an array.
@@ -134,7 +112,7 @@ pub unsafe extern "C" fn fmi3GetFloat64(
 ) -> Status {
     match count == value_count {
         true => unsafe { get(instance, references, count, values) },
-        false => ERROR,
+        false => unsafe { refuse_count(instance, count, value_count) },
     }
 }
 
@@ -149,7 +127,7 @@ pub unsafe extern "C" fn fmi3SetFloat64(
 ) -> Status {
     match count == value_count {
         true => unsafe { set(instance, references, count, values) },
-        false => ERROR,
+        false => unsafe { refuse_count(instance, count, value_count) },
     }
 }
 
@@ -186,58 +164,15 @@ pub unsafe extern "C" fn fmi3DoStep(
     }
 }
 
-/// Takes the present state; one that is there already is replaced.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3GetFMUState(instance: *mut c_void, state: *mut *mut c_void) -> Status {
-    unsafe { states::take(instance, state) }
-}
-
-/// Goes back to a state.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SetFMUState(instance: *mut c_void, state: *mut c_void) -> Status {
-    unsafe { states::give_back(instance, state) }
-}
-
-/// Ends a state, and leaves null in its place.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3FreeFMUState(_: *mut c_void, state: *mut *mut c_void) -> Status {
-    unsafe { states::end(state) }
-}
-
-/// Bytes that a state takes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializedFMUStateSize(
-    instance: *mut c_void,
-    state: *mut c_void,
-    size: *mut usize,
-) -> Status {
-    unsafe { states::size(instance, state, size) }
-}
-
-/// Writes a state as bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3SerializeFMUState(
-    instance: *mut c_void,
-    state: *mut c_void,
-    bytes: *mut u8,
-    size: usize,
-) -> Status {
-    unsafe { states::write(instance, state, bytes, size) }
-}
-
-/// Reads a state from bytes.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3DeserializeFMUState(
-    instance: *mut c_void,
-    bytes: *const u8,
-    size: usize,
-    state: *mut *mut c_void,
-) -> Status {
-    unsafe { states::read(instance, bytes, size, state) }
-}
-
 /// Steps follow at once.
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3EnterStepMode(_: *mut c_void) -> Status {
     OK
+}
+
+life_functions! { fmi3FreeInstance fmi3ExitInitializationMode fmi3Terminate fmi3Reset }
+
+state_functions! {
+    fmi3GetFMUState fmi3SetFMUState fmi3FreeFMUState
+    fmi3SerializedFMUStateSize fmi3SerializeFMUState fmi3DeserializeFMUState
 }

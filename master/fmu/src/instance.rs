@@ -160,9 +160,7 @@ pub(crate) unsafe fn guarded(
             ERROR
         }
         Err(_) => {
-            instance
-                .told
-                .tell(FATAL, "a defect of Linchpin: it has panicked");
+            instance.told.tell(FATAL, PANIC);
             FATAL
         }
     }
@@ -204,6 +202,41 @@ pub(crate) unsafe fn set(
         })
     }
 }
+
+/// The functions of an instance's life that have equal arguments in both versions of FMI, under the names of one.
+macro_rules! life_functions {
+    ($end:ident $start:ident $terminate:ident $reset:ident) => {
+        /// Ends an instance.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $end(instance: *mut c_void) {
+            unsafe { $crate::instance::end(instance) }
+        }
+
+        /// Starts the scene.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $start(instance: *mut c_void) -> Status {
+            unsafe { guarded(instance, |own| own.component.start().map(|_| ())) }
+        }
+
+        /// The simulation is over; the values stay.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $terminate(instance: *mut c_void) -> Status {
+            unsafe { guarded(instance, |_| Ok(())) }
+        }
+
+        /// As after it was made.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $reset(instance: *mut c_void) -> Status {
+            unsafe {
+                guarded(instance, |own| {
+                    own.component.reset();
+                    Ok(())
+                })
+            }
+        }
+    };
+}
+pub(crate) use life_functions;
 
 #[cfg(test)]
 mod tests {

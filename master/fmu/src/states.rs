@@ -106,3 +106,59 @@ pub(crate) unsafe fn read(
         })
     }
 }
+
+/// The functions of states under the names of one version of FMI.
+macro_rules! state_functions {
+    ($take:ident $give_back:ident $end:ident $size:ident $write:ident $read:ident) => {
+        /// Takes the present state; one that is there already is replaced.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $take(instance: *mut c_void, state: *mut *mut c_void) -> Status {
+            unsafe { $crate::states::take(instance, state) }
+        }
+
+        /// Goes back to a state.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $give_back(instance: *mut c_void, state: *mut c_void) -> Status {
+            unsafe { $crate::states::give_back(instance, state) }
+        }
+
+        /// Ends a state, and leaves null in its place.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $end(_: *mut c_void, state: *mut *mut c_void) -> Status {
+            unsafe { $crate::states::end(state) }
+        }
+
+        /// Bytes that a state takes.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $size(
+            instance: *mut c_void,
+            state: *mut c_void,
+            size: *mut usize,
+        ) -> Status {
+            unsafe { $crate::states::size(instance, state, size) }
+        }
+
+        /// Writes a state as bytes.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $write(
+            instance: *mut c_void,
+            state: *mut c_void,
+            bytes: *mut u8,
+            size: usize,
+        ) -> Status {
+            unsafe { $crate::states::write(instance, state, bytes, size) }
+        }
+
+        /// Reads a state from bytes.
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $read(
+            instance: *mut c_void,
+            bytes: *const u8,
+            size: usize,
+            state: *mut *mut c_void,
+        ) -> Status {
+            unsafe { $crate::states::read(instance, bytes, size, state) }
+        }
+    };
+}
+pub(crate) use state_functions;

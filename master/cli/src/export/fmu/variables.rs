@@ -1,6 +1,5 @@
 //! What an importer sees of a scene: result columns and parameters, and how the run steps.
 
-use linchpin_master::CoSimulation;
 use linchpin_master::results::{Column, Quantity, Row};
 use linchpin_master::scene::{Scene, Served};
 use linchpin_master::setup::{Options, describe};
@@ -9,6 +8,7 @@ use linchpin_proto::v1::{self, value::Kind};
 use super::contents::{Contents, find_parameter};
 use super::error::FmuExportError;
 use crate::connect::{Connector, Place};
+use crate::simulate;
 
 /// An exported variable.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,7 +67,8 @@ impl Exported {
         let mut connect = |scene: &Scene, subsystem: &_| connector.connect(scene, subsystem);
         let failed = |error| FmuExportError::Run(Box::new(error));
         let models = describe(&scene, &mut connect).map_err(failed)?;
-        let run = CoSimulation::start(&scene, &mut connect, &Options::default()).map_err(failed)?;
+        let started = simulate::start(&scene, &connector, &Options::default(), None);
+        let run = started.map_err(failed)?;
         let outputs = outputs(run.row(), &contents.outputs)?;
         contents.outputs = outputs.iter().map(|own| own.name.clone()).collect();
         let parameters = contents.parameters.iter();

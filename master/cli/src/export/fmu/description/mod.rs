@@ -84,12 +84,37 @@ fn write_experiment(exported: &Exported, text: &mut String) -> std::fmt::Result 
 const OUTPUT: &str = r#"causality="output" variability="continuous" initial="calculated""#;
 const PARAMETER: &str = r#"causality="parameter" variability="fixed" initial="exact""#;
 
-/// The variables by their value references, each with what it is.
-fn variables(exported: &Exported) -> impl Iterator<Item = (usize, &Variable, &'static str)> {
+/// A variable as attributes, each as it stands in the file; those that are absent are empty.
+struct Attributes {
+    /// Its name, its value reference and what it is.
+    always: String,
+    description: String,
+    unit: String,
+    start: String,
+}
+
+/// The variables by their value references.
+fn variables(exported: &Exported) -> impl Iterator<Item = Attributes> {
     let outputs = exported.outputs.iter().map(|own| (own, OUTPUT));
     let parameters = exported.parameters.iter().map(|own| (own, PARAMETER));
     let all = outputs.chain(parameters).enumerate();
-    all.map(|(reference, (variable, kind))| (reference, variable, kind))
+    all.map(|(reference, (variable, kind))| {
+        let name = escape(&variable.name);
+        let unit = if has_unit(variable) {
+            &*variable.unit
+        } else {
+            ""
+        };
+        Attributes {
+            always: format!(r#"name="{name}" valueReference="{reference}" {kind}"#),
+            description: attribute("description", &variable.description),
+            unit: attribute("unit", unit),
+            start: match kind == PARAMETER {
+                true => format!(r#" start="{:?}""#, variable.start),
+                false => String::new(),
+            },
+        }
+    })
 }
 
 /// ` description="..."` and the like, where there is something to say.
@@ -100,16 +125,19 @@ fn attribute(name: &str, value: &str) -> String {
     }
 }
 
-fn unit(variable: &Variable) -> String {
-    match has_unit(variable) {
-        true => attribute("unit", &variable.unit),
-        false => String::new(),
-    }
-}
-
-fn start(variable: &Variable, kind: &str) -> String {
-    match kind == PARAMETER {
-        true => format!(r#" start="{:?}""#, variable.start),
-        false => String::new(),
-    }
+/// The line before the root, and the attributes of the root that both versions have; `token` is the name of that of the token.
+fn write_head(
+    exported: &Exported,
+    version: &str,
+    token: &str,
+    text: &mut String,
+) -> std::fmt::Result {
+    writeln!(text, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
+    write!(
+        text,
+        r#"<fmiModelDescription fmiVersion="{version}" modelName="{}" {token}="{}" generationTool="Linchpin {}" variableNamingConvention="flat""#,
+        escape(&exported.name),
+        escape(&exported.contents.token),
+        env!("CARGO_PKG_VERSION")
+    )
 }

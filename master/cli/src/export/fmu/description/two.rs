@@ -2,21 +2,13 @@
 
 use std::fmt::{Result, Write};
 
-use quick_xml::escape::escape;
-
-use super::{IDENTIFIER, attribute, start, unit, variables, write_experiment, write_units};
+use super::{Attributes, IDENTIFIER, variables, write_experiment, write_head, write_units};
 use crate::export::fmu::Exported;
 
 pub(super) fn write(exported: &Exported, text: &mut String) -> Result {
     let has_states = exported.has_states;
-    writeln!(text, r#"<?xml version="1.0" encoding="UTF-8"?>"#)?;
-    writeln!(
-        text,
-        r#"<fmiModelDescription fmiVersion="2.0" modelName="{}" guid="{}" generationTool="Linchpin {}" variableNamingConvention="flat" numberOfEventIndicators="0">"#,
-        escape(&exported.name),
-        escape(&exported.contents.token),
-        env!("CARGO_PKG_VERSION")
-    )?;
+    write_head(exported, "2.0", "guid", text)?;
+    writeln!(text, r#" numberOfEventIndicators="0">"#)?;
     writeln!(
         text,
         r#"  <CoSimulation modelIdentifier="{IDENTIFIER}" canHandleVariableCommunicationStepSize="true" canInterpolateInputs="false" maxOutputDerivativeOrder="0" canGetAndSetFMUstate="{has_states}" canSerializeFMUstate="{has_states}" providesDirectionalDerivative="false"/>"#
@@ -24,13 +16,16 @@ pub(super) fn write(exported: &Exported, text: &mut String) -> Result {
     write_units(exported, text)?;
     write_experiment(exported, text)?;
     writeln!(text, "  <ModelVariables>")?;
-    for (reference, variable, kind) in variables(exported) {
-        let name = escape(&variable.name);
-        let description = attribute("description", &variable.description);
-        let (unit, start) = (unit(variable), start(variable, kind));
+    for Attributes {
+        always,
+        description,
+        unit,
+        start,
+    } in variables(exported)
+    {
         writeln!(
             text,
-            r#"    <ScalarVariable name="{name}" valueReference="{reference}" {kind}{description}><Real{unit}{start}/></ScalarVariable>"#
+            r#"    <ScalarVariable {always}{description}><Real{unit}{start}/></ScalarVariable>"#
         )?;
     }
     writeln!(text, "  </ModelVariables>")?;
