@@ -1,5 +1,7 @@
 //! Why a command failed, and how it ends the process.
 
+mod exit_code;
+
 use std::path::{Path, PathBuf};
 
 use linchpin_fmu::FmuError;
@@ -16,7 +18,6 @@ use crate::certificates::NewCertificatesError;
 use crate::comparison::ComparisonError;
 use crate::conformance::ConformanceError;
 use crate::export::fmu::FmuExportError;
-use crate::interrupt::{self, Request};
 use crate::output::checkpoint::ResumeError;
 use crate::output::part::PartError;
 use crate::plot::PlotError;
@@ -376,58 +377,6 @@ impl CommandError {
         }
     }
 
-    /// Whether the command ended early since somebody asked for that.
-    pub fn is_interrupt(&self) -> bool {
-        match self {
-            Self::Case { source, .. } => source.is_interrupt(),
-            Self::Run(error) => is_interrupt(error),
-            Self::Stopped { source, .. } => is_interrupt(source),
-            Self::Study(error) => error.is_interrupt(),
-            _ => false,
-        }
-    }
-
-    /// Exit code: 2 for mistakes that a check of the scene finds, after a signal 128 and its number, 1 for everything else that
-    /// happens later.
-    pub fn exit_code(&self) -> u8 {
-        match self {
-            Self::Case { source, .. } => source.exit_code(),
-            _ if self.is_interrupt() => interrupt::received().map_or(1, Request::exit_code),
-            Self::NothingToStudy { .. }
-            | Self::Resume(ResumeError::NoCheckpoint { .. } | ResumeError::OtherRun { .. })
-            | Self::NothingToAnimate
-            | Self::NewCertificates(NewCertificatesError::NoWorker { .. })
-            | Self::Fmu(_)
-            | Self::TooManyParts { .. }
-            | Self::NoScene { .. }
-            | Self::NoSettings { .. }
-            | Self::Read(_)
-            | Self::FileThere { .. }
-            | Self::NoClone { .. }
-            | Self::NoModel { .. }
-            | Self::Models(_)
-            | Self::NoParameter { .. }
-            | Self::Comparison(_)
-            | Self::NoColumn { .. }
-            | Self::EmptyRange { .. }
-            | Self::NothingToDraw { .. }
-            | Self::NothingToExport { .. }
-            | Self::FmuExport(_)
-            | Self::StudyAmongOthers { .. } => 2,
-            _ if self.scene_errors().is_some() => 2,
-            _ => 1,
-        }
-    }
-
-    /// The mistakes in the scene, if it is these.
-    pub fn scene_errors(&self) -> Option<&SceneErrors> {
-        match self {
-            Self::Scene(errors) | Self::Run(RunError::Scene(errors)) => Some(errors),
-            Self::Study(error) => error.scene_errors(),
-            _ => None,
-        }
-    }
-
     /// What ended a simulation with this coupling; `table` is where the rows are that it recorded, if there are any.
     pub fn from_simulation(
         error: SimulateError<Self>,
@@ -455,10 +404,6 @@ impl CommandError {
             source: Box::new(self),
         }
     }
-}
-
-fn is_interrupt(error: &RunError) -> bool {
-    matches!(error, RunError::Interrupted { .. })
 }
 
 fn help_line(help: Option<&str>) -> String {

@@ -31,10 +31,10 @@ use crate::simulate::simulate;
   linchpin run scenes/oscillator.toml --json | jq .statistics.macro_steps
 
 Writes DIR/results.csv (a row for every macro point), DIR/run.json (scene, settings, statistics) and the plots
-DIR/results.svg and DIR/results.png. What a worker prints that the run has started is in DIR/workers/NAME.log.
-A scene with cases runs them one after the other, each in a folder of its own, and draws them together. What a run records stays if it fails: run.json says from the first moment on whether the run is under way,
-done, failed or interrupted. Ctrl-C, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU end it in good order, with exit code 128 and
-the number of the signal.")]
+DIR/results.svg and DIR/results.png. What a worker prints that the run has started is in DIR/workers/NAME.log. A scene with
+cases runs them one after the other, each in a folder of its own, and draws them together. What a run records stays if it
+fails: run.json says from the first moment on whether the run is under way, done, failed or interrupted. Ctrl-C, SIGTERM,
+SIGHUP, SIGQUIT, SIGUSR1 and SIGXCPU end it in good order, with exit code 128 and the number of the signal.")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
