@@ -3,11 +3,11 @@
 use std::convert::Infallible;
 
 use linchpin::connect::{Connector, Place};
-use linchpin::simulate::{Recorder, SimulateError, simulate};
-use linchpin_master::RunError;
+use linchpin::simulate::{self, Recorder, SimulateError, simulate};
 use linchpin_master::results::{Row, Statistics};
 use linchpin_master::scene::Scene;
 use linchpin_master::setup::Options;
+use linchpin_master::{CoSimulation, RunError};
 
 /// Time in s after which the multipliers no longer show the first steps.
 const SETTLED: f64 = 0.05;
@@ -66,6 +66,16 @@ impl Recorder for Trajectory {
         self.rows.push(row.values().to_vec());
         Ok(())
     }
+}
+
+/// A run at its start, in this process.
+///
+/// # Panics
+/// If it does not start.
+pub fn start(scene: &Scene) -> CoSimulation {
+    let connector = Connector::new(Place::InProcess);
+    let started = simulate::start(scene, &connector, &Options::default(), None);
+    started.unwrap_or_else(|error| panic!("{error}\nin {:?}", scene.coupling))
 }
 
 /// Runs a scene; the error is that of the run.

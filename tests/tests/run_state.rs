@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use linchpin::connect::{Connector, Place};
 use linchpin_master::run::checkpoint::Checkpoint;
-use linchpin_master::scene::{Override, Scene, parse};
-use linchpin_master::setup::Options;
+use linchpin_master::scene::Scene;
 use linchpin_master::{CoSimulation, RunError};
+use linchpin_tests::runs::start;
+use linchpin_tests::scenes::with_settings;
 
 const OSCILLATOR: &str = include_str!("../../scenes/oscillator.toml");
 const DOUBLE_PENDULUM: &str = include_str!("../../scenes/double-pendulum.toml");
@@ -17,16 +17,7 @@ const SPLIT: &str = include_str!("../../scenes/s2/split-slider-crank.toml");
 const MOTOR: &str = include_str!("../../scenes/motor/slider-crank.toml");
 
 fn scene(text: &str, settings: &[&str]) -> Scene {
-    let settings: Vec<Override> = settings.iter().map(|one| one.parse().unwrap()).collect();
-    parse(text, "scene.toml", &settings).unwrap_or_else(|errors| panic!("{errors}"))
-}
-
-fn start(scene: &Scene) -> CoSimulation {
-    let connector = Connector::new(Place::InProcess);
-    let mut connect = |scene: &Scene, subsystem: &linchpin_master::scene::Subsystem| {
-        connector.connect(scene, subsystem)
-    };
-    CoSimulation::start(scene, &mut connect, &Options::default()).unwrap()
+    with_settings(text, "", settings)
 }
 
 /// The bits of the present row, and of the samples before it.
