@@ -104,6 +104,21 @@ fn what_is_closed_is_not_touched() {
     assert_eq!(given.bits(), tolerant.bits());
 }
 
+/// A study that starts from a state with open joints means that state.
+#[test]
+fn where_open_joints_are_accepted_none_is_fitted() {
+    let options = Options {
+        accept_open_joints: true,
+        ..Options::default()
+    };
+    let scene = rounded(&["coupling.start_tolerance=1e-4"]);
+    let open = try_run(&scene, Place::InProcess, &options).unwrap();
+    assert!(open.statistics.fitted_joints.is_empty());
+    let found = open.column("hinge.residual.position.y")[0];
+    let expected = 0.5_f64.sqrt() - 0.70709;
+    assert!((found - expected).abs() < 1e-12, "{found:e}");
+}
+
 #[test]
 fn more_than_the_tolerance_is_refused() {
     let message = refusal(&rounded(&["coupling.start_tolerance=1e-7"]));

@@ -3,9 +3,7 @@
 use super::CoSimulation;
 use crate::error::RunError;
 use crate::macro_step::look_ahead;
-
-/// A time that is so near to a macro point, as a share of the macro step, is that point.
-const ROUNDING: f64 = 1e-9;
+use crate::time::ROUNDING;
 
 impl CoSimulation {
     /// Takes macro steps up to `t` (s), which becomes a macro point. Where it is one of those that the run has anyway, all results are those of a run

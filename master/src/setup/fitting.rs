@@ -15,6 +15,7 @@ use super::discover::{connect_signals, mark, refuse_marker};
 use super::geometry::{Needs, law_of};
 use super::initial::InitialState;
 use super::instances::{initialize, initialize_request, names};
+use super::options::Options;
 use crate::error::RunError;
 use crate::joint::{Joint as Law, Level, Motion};
 use crate::layout::{Coupled, Layout, MarkedJoint};
@@ -37,15 +38,17 @@ const SOLVED: f64 = 1e-3;
 const STEPS: usize = 6;
 
 /// The scene with the geometry of its joints fitted to the start, and which were changed. Joints that are closed stay as they are; so do those that are
-/// open by more than `coupling.start_tolerance`, or that have no geometry, to be refused. Leaves no instance behind.
+/// open by more than `coupling.start_tolerance`, or that have no geometry, to be refused. Leaves no instance behind. Where a run accepts open joints they
+/// are a part of the state that it starts from.
 pub(super) fn fit<'a>(
     scene: &'a Scene,
     models: &[v1::Model],
     subsystems: &mut Vec<Subsystem>,
+    options: &Options,
 ) -> Result<(Cow<'a, Scene>, Vec<FittedJoint>), RunError> {
     let mut fitted = Vec::new();
     let tolerance = scene.coupling.start_tolerance;
-    if tolerance <= CLOSED || scene.joints.is_empty() {
+    if tolerance <= CLOSED || scene.joints.is_empty() || options.accept_open_joints {
         return Ok((Cow::Borrowed(scene), fitted));
     }
     let joints = mark(scene, models)?;

@@ -39,7 +39,7 @@ impl CoSimulation {
         for (number, model) in models.iter().enumerate() {
             forward_only::refuse(scene, number, model)?;
         }
-        let (scene, fitted_joints) = fitting::fit(scene, &models, &mut subsystems)?;
+        let (scene, fitted_joints) = fitting::fit(scene, &models, &mut subsystems, options)?;
         let joints = mark(&scene, &models)?;
         let connections = connect_signals(&scene, &models)?;
         let scene = &fit(&scene, &models, &joints, &connections);

@@ -38,7 +38,7 @@ pub(crate) fn at_start(t: f64) -> MacroStep {
 }
 
 /// A remainder below this share of `H` is rounding: `H` divides the time span.
-pub(super) const ROUNDING: f64 = 1e-9;
+pub(crate) const ROUNDING: f64 = 1e-9;
 
 impl MacroGrid {
     /// The grid from `t_start` to `t_end` with steps `macro_step`.

@@ -3,8 +3,8 @@
 mod grid;
 mod plan;
 
-pub(crate) use grid::at_start;
 pub use grid::{MacroGrid, MacroStep};
+pub(crate) use grid::{ROUNDING, at_start};
 pub use plan::TimePlan;
 
 /// A macro step is at most this many times as long as the one before. More would make the polynomials over unequal steps unstable.
